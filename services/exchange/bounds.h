@@ -28,6 +28,7 @@ inline constexpr std::size_t kMaxMissionsPerReply = 100;
 inline constexpr std::size_t kMaxAnswersTold = 64;     // of each command
 inline constexpr std::size_t kMaxNetworkLines = 1000;  // of a reply
 inline constexpr std::size_t kMaxSoftwareBytes = 64;
+inline constexpr double kMaxOdometryScale = 1000.0;
 inline constexpr std::size_t kMaxGlanceBytes = 64U << 10U;
 inline constexpr std::size_t kMaxLineBytes = 512;  // details, errors, reasons
 

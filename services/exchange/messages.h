@@ -163,6 +163,28 @@ struct PlaceOnRoute {
   bool operator==(const PlaceOnRoute&) const = default;
 };
 
+// The evidence that carries a follower along its route.
+enum class CarriedBy : std::uint8_t {
+  kNothing = 0,
+  kFeatures = 1,  // the segment's features, tracked
+  kViews = 2,     // key views that are recognised
+  kMotion = 3,    // neither: how it is measured, or told, to move
+};
+
+// What a follower's odometry is trusted for.
+struct OdometryTrust {
+  std::uint8_t percent = 0;  // how far it is believed, against what the camera sees
+  double scale = 0.0;        // the route's metres for each of its own; 0: not known
+  bool operator==(const OdometryTrust&) const = default;
+};
+
+// What a robot follows its route by.
+struct Following {
+  CarriedBy carried_by = CarriedBy::kNothing;
+  std::optional<OdometryTrust> odometry{};  // of a robot that has it
+  bool operator==(const Following&) const = default;
+};
+
 // How operators have a robot stand.
 enum class AgentHold : std::uint8_t { kNone = 0, kPaused = 1, kStopped = 2 };
 
@@ -188,6 +210,7 @@ struct AgentStatus {
   std::optional<std::uint8_t> battery_percent{};  // where the robot tells
   std::optional<std::uint8_t> link_percent{};     // of its radio, likewise
   std::string software{};                         // its version, for people
+  std::optional<Following> following{};           // of a follower that is on its way
   bool operator==(const AgentStatus&) const = default;
 };
 

@@ -150,27 +150,34 @@ TEST_P(RouteExchangeContract, CarriesTheLongestCatalogReply) {
 }
 
 TEST_P(RouteExchangeContract, CarriesAStatusOfExtremes) {
-  const AgentStatus status{.agent = AgentId("a"),
-                           .instance = ~0ULL,
-                           .role = AgentRole::kOperator,
-                           .mode = AgentMode::kFault,
-                           .route = "corridor",
-                           .segment = ~0U,
-                           .segments = ~0U,
-                           .progress = 1.0,
-                           .speed_mps = -1000.0,
-                           .features = ~0U,
-                           .found_share = 1.0,
-                           .backlog = ~0U,
-                           .detail = std::string(kMaxLineBytes, 'd'),
-                           .held = std::vector(exchange::kMaxHeldTold, KeyNumber(7)),
-                           .place = exchange::PlaceOnRoute{KeyNumber(7, ~0U), 1e7, -1e3, 1e3},
-                           .hold = exchange::AgentHold::kStopped,
-                           .on_duty = true,
-                           .battery_percent = 100,
-                           .link_percent = 0,
-                           .software = std::string(exchange::kMaxSoftwareBytes, 's')};
+  const AgentStatus status{
+      .agent = AgentId("a"),
+      .instance = ~0ULL,
+      .role = AgentRole::kOperator,
+      .mode = AgentMode::kFault,
+      .route = "corridor",
+      .segment = ~0U,
+      .segments = ~0U,
+      .progress = 1.0,
+      .speed_mps = -1000.0,
+      .features = ~0U,
+      .found_share = 1.0,
+      .backlog = ~0U,
+      .detail = std::string(kMaxLineBytes, 'd'),
+      .held = std::vector(exchange::kMaxHeldTold, KeyNumber(7)),
+      .place = exchange::PlaceOnRoute{KeyNumber(7, ~0U), 1e7, -1e3, 1e3},
+      .hold = exchange::AgentHold::kStopped,
+      .on_duty = true,
+      .battery_percent = 100,
+      .link_percent = 0,
+      .software = std::string(exchange::kMaxSoftwareBytes, 's'),
+      .following = exchange::Following{exchange::CarriedBy::kMotion,
+                                       exchange::OdometryTrust{100, exchange::kMaxOdometryScale}}};
   ExpectRoundTrip(status, Topic::kAgents);
+  ExpectRoundTrip(
+      AgentStatus{.agent = AgentId("by-camera"),
+                  .following = exchange::Following{exchange::CarriedBy::kNothing, std::nullopt}},
+      Topic::kAgents);
   ExpectRoundTrip(AgentStatus{.agent = AgentId("nowhere")}, Topic::kAgents);
 }
 

@@ -147,6 +147,9 @@ class Samples {
     wire.battery_percent = Octet();
     wire.link_percent = Octet();
     wire.software = Text();
+    wire.carried_by = Octet();
+    wire.odometry_percent = Octet();
+    wire.odometry_scale = Real();
   }
   void Fill(trailcast_wire_DriveCommand& wire) {
     wire.agent = Name();

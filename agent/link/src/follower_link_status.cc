@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "agent/link/follower_link.h"
@@ -27,6 +28,30 @@ exchange::AgentMode ModeOf(ReplayState state) {
       return exchange::AgentMode::kFault;
   }
   return exchange::AgentMode::kFault;
+}
+
+exchange::CarriedBy CarriedBy(Evidence evidence) {
+  switch (evidence) {
+    case Evidence::kNothing:
+      return exchange::CarriedBy::kNothing;
+    case Evidence::kFeatures:
+      return exchange::CarriedBy::kFeatures;
+    case Evidence::kViews:
+      return exchange::CarriedBy::kViews;
+    case Evidence::kMotion:
+      return exchange::CarriedBy::kMotion;
+  }
+  return exchange::CarriedBy::kNothing;
+}
+
+exchange::Following FollowingOf(const ReplayStep& step) {
+  exchange::Following following{CarriedBy(step.evidence), std::nullopt};
+  if (step.odometry) {
+    const double percent = std::round(100.0 * std::clamp(step.odometry->trust, 0.0, 1.0));
+    following.odometry = exchange::OdometryTrust{static_cast<std::uint8_t>(percent),
+                                                 step.odometry->scale.value_or(0.0)};
+  }
+  return following;
 }
 
 }  // namespace
@@ -70,6 +95,7 @@ void FollowerLink::ShowStatus() {
     const auto offset = latest_.decision.offset.value_or(replay::PathOffset{});
     status.place = {route_->key, *latest_.along_m, offset.left_m, offset.left_sigma_m};
   }
+  if (status.mode == exchange::AgentMode::kReplaying) status.following = FollowingOf(latest_);
   status.hold = now_desk_.shown_hold();
   status.on_duty = options_.now_desk != nullptr;
   presence_->Set(std::move(status));

@@ -42,6 +42,7 @@ export type Robot = {
   battery_percent: number | null;
   link_percent: number | null;
   software: string;
+  follows_by: string;  // a sentence; empty while it follows nothing
   teaches: boolean;
   features: number;
   mission: Mission | null;

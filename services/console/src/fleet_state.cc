@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "services/console/src/robot_state.h"
+#include "services/fleet/following_words.h"
 #include "services/fleet/mission_client.h"
 #include "services/fleet/routes/catalog_client.h"
 #include "services/mission/mission.h"
@@ -210,6 +211,7 @@ Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest) cons
              {"battery_percent", program::OrNull(status.battery_percent)},
              {"link_percent", program::OrNull(status.link_percent)},
              {"software", status.software},
+             {"follows_by", fleet::FollowingText(status)},
              {"teaches", status.mode == AgentMode::kTeaching},
              {"features", status.features},
              {"orders", OrdersFor(RobotStateOf(status, false, mission != nullptr), status,

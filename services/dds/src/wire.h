@@ -14,6 +14,7 @@ namespace trailcast::dds {
 // Between our messages and the C structs that idlc makes of idl/trailcast.idl.
 
 inline constexpr std::uint8_t kUnknownPercent = 255;
+inline constexpr std::uint8_t kDoesNotFollow = 255;
 
 [[nodiscard]] const dds_topic_descriptor_t& TypeOf(exchange::Topic topic);
 

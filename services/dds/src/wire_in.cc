@@ -205,6 +205,15 @@ std::optional<std::uint8_t> PercentFrom(std::uint8_t wire) {
   return wire == kUnknownPercent ? std::nullopt : std::optional(wire);
 }
 
+std::optional<Following> FollowingFrom(const trailcast_wire_AgentStatus& wire) {
+  if (wire.carried_by == kDoesNotFollow) return std::nullopt;
+  Following following{static_cast<CarriedBy>(wire.carried_by), std::nullopt};
+  if (const auto percent = PercentFrom(wire.odometry_percent)) {
+    following.odometry = OdometryTrust{*percent, wire.odometry_scale};
+  }
+  return following;
+}
+
 Message From(const trailcast_wire_AgentStatus& wire) {
   AgentStatus status{.agent = AgentId(Text(wire.agent)),
                      .instance = wire.instance,
@@ -228,6 +237,7 @@ Message From(const trailcast_wire_AgentStatus& wire) {
   status.battery_percent = PercentFrom(wire.battery_percent);
   status.link_percent = PercentFrom(wire.link_percent);
   status.software = Text(wire.software);
+  status.following = FollowingFrom(wire);
   return status;
 }
 

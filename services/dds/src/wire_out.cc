@@ -255,6 +255,15 @@ Result<void> With(const AgentStatus& message, const UseSample& use) {
   sample.battery_percent = message.battery_percent.value_or(kUnknownPercent);
   sample.link_percent = message.link_percent.value_or(kUnknownPercent);
   sample.software = Lend(message.software);
+  sample.carried_by = kDoesNotFollow;
+  sample.odometry_percent = kUnknownPercent;
+  if (message.following) {
+    sample.carried_by = static_cast<std::uint8_t>(message.following->carried_by);
+  }
+  if (message.following && message.following->odometry) {
+    sample.odometry_percent = message.following->odometry->percent;
+    sample.odometry_scale = message.following->odometry->scale;
+  }
   return use(&sample);
 }
 

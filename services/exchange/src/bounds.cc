@@ -152,6 +152,13 @@ Result<void> CheckSpeed(double speed_mps) {
   return CheckAmount("speed, forward or backward", std::abs(speed_mps), kMaxSpeed_mps);
 }
 
+Result<void> CheckFollowing(const Following& following) {
+  if (auto ok = CheckEnum("carried by", following.carried_by, CarriedBy::kMotion); !ok) return ok;
+  if (!following.odometry) return {};
+  if (auto ok = CheckPercent("trust in odometry", following.odometry->percent); !ok) return ok;
+  return CheckAmount("scale of odometry", following.odometry->scale, kMaxOdometryScale);
+}
+
 Result<void> Check(const AgentStatus& message) {
   if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
   if (!message.route.empty()) {
@@ -178,6 +185,9 @@ Result<void> Check(const AgentStatus& message) {
     if (auto ok = CheckAmount("metres beside the route", left_m, kMaxLength_m); !ok) return ok;
     const double sigma_m = message.place->left_sigma_m;
     if (auto ok = CheckAmount("how sure of that, metres", sigma_m, kMaxLength_m); !ok) return ok;
+  }
+  if (message.following) {
+    if (auto ok = CheckFollowing(*message.following); !ok) return ok;
   }
   return CheckText("detail", message.detail, kMaxLineBytes);
 }

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "services/fleet/following_words.h"
 #include "services/program/json.h"
 
 namespace trailcast::fleet {
@@ -16,6 +17,12 @@ using exchange::AgentMode;
 using exchange::AgentStatus;
 using program::Rounded;
 using program::RoundedOrNull;
+
+std::string Says(const AgentStatus& status) {
+  const std::string follows_by = FollowingText(status);
+  if (status.detail.empty() || follows_by.empty()) return status.detail + follows_by;
+  return fmt::format("{}; {}", status.detail, follows_by);
+}
 
 const char* HoldText(AgentHold hold) {
   switch (hold) {
@@ -61,6 +68,7 @@ program::Json JsonOf(const AgentStatus& status) {
           {"battery_percent", program::OrNull(status.battery_percent)},
           {"link_percent", program::OrNull(status.link_percent)},
           {"software", status.software},
+          {"follows_by", FollowingText(status)},
           {"detail", status.detail}};
 }
 
@@ -113,7 +121,7 @@ std::string RobotsThere::Text() const {
     text +=
         fmt::format(kLine, name.value(), DoingOf(status), status.route.empty() ? "-" : status.route,
                     along, beside, Percent(status.battery_percent), Percent(status.link_percent),
-                    status.software.empty() ? "-" : status.software, status.detail);
+                    status.software.empty() ? "-" : status.software, Says(status));
   }
   return text;
 }

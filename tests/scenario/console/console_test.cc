@@ -42,6 +42,8 @@ TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
   EXPECT_EQ(Robot1()["mission"]["orders"], "follow hall");
   EXPECT_TRUE(WaitUntil([&] { return Robot1()["length_m"].is_number(); })) << State().dump(2);
   EXPECT_EQ(State()["routes"][0]["name"], "hall");
+  EXPECT_TRUE(WaitUntil([&] { return Robot1()["follows_by"] == "Odometry: trusted"; }))
+      << Robot1().dump(2);
 
   const Replied paused = Post("/api/robots/robot1/pause", {{"reason", "somebody walks here"}});
   EXPECT_EQ(paused.status, 200) << paused.body.dump();
@@ -153,6 +155,7 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   EXPECT_EQ(Robot1()["mission"], nullptr);
   ASSERT_TRUE(browser.Type("//input[@type='range']", kSlide));
   ASSERT_TRUE(browser.WaitForText("Driving")) << browser.Text() << agent_->output();
+  ASSERT_TRUE(browser.WaitForText("Odometry: trusted")) << browser.Text();
   browser.Screenshot(Shot("phone-driving"));
 
   ASSERT_TRUE(browser.Click("//article//button[contains(@class, 'stop')]"));

@@ -107,6 +107,7 @@ TEST_F(FleetStateTest, ShowsHowTheRobotIsItselfWhereItTells) {
   EXPECT_EQ(Robot()["battery_percent"], nullptr);
   EXPECT_EQ(Robot()["link_percent"], nullptr);
   EXPECT_EQ(Robot()["left_sigma_m"], nullptr);
+  EXPECT_EQ(Robot()["follows_by"], "");
   status.battery_percent = 12;
   status.link_percent = 71;
   status.software = "0.1.0";
@@ -117,9 +118,13 @@ TEST_F(FleetStateTest, ShowsHowTheRobotIsItselfWhereItTells) {
   EXPECT_EQ(Robot()["software"], "0.1.0");
   EXPECT_EQ(Robot()["left_m"], -0.12);
   EXPECT_EQ(Robot()["left_sigma_m"], 0.03);
+  status.following =
+      exchange::Following{exchange::CarriedBy::kFeatures, exchange::OdometryTrust{90, 0.5}};
   status.place->left_sigma_m = 0.003;
   Hear(status);
   EXPECT_EQ(Robot()["left_sigma_m"], 0.01);
+  EXPECT_EQ(Robot()["follows_by"],
+            "Odometry: counts 2.00 times too much for this route, corrected");
 }
 
 TEST_F(FleetStateTest, WhereARobotStoodLastIsKeptUntilItSaysAnew) {

@@ -161,6 +161,26 @@ TEST_F(WebTest, WhatACameraSeesIsAPictureOrWhyThereIsNone) {
   EXPECT_THAT(json::parse(silent->body)["error"].get<std::string>(), HasSubstr("robot7"));
 }
 
+TEST_F(WebTest, WhatOdometryIsTrustedForIsTold) {
+  const auto robot = bus_.Open(program::WithAgents(exchange::FollowerTopics()));
+  exchange::AgentStatus status;
+  status.agent = AgentId("robot1");
+  status.role = exchange::AgentRole::kFollower;
+  status.mode = exchange::AgentMode::kReplaying;
+  status.following =
+      exchange::Following{exchange::CarriedBy::kViews, exchange::OdometryTrust{4, 1.1}};
+  ASSERT_TRUE(robot->Publish(status));
+  std::string said;
+  ASSERT_TRUE(test::Await(
+      [&] {
+        const json robots = json::parse(Client().Get("/api/state")->body)["robots"];
+        if (!robots.empty()) said = robots[0].value("follows_by", "");
+        return !said.empty();
+      },
+      "the robot to say what it follows by"));
+  EXPECT_EQ(said, "Odometry: not believed; the pictures carry the robot");
+}
+
 TEST_F(WebTest, ANarrowAnswerTellsTheConsolesTime) {
   const auto state = Client().Get("/api/state");
   ASSERT_TRUE(state);

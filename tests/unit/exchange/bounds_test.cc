@@ -109,5 +109,19 @@ TEST(CheckBounds, RefusesPlacesThatAreNowhereOnARoute) {
   ExpectRefused(status, "route id");
 }
 
+TEST(CheckBounds, RefusesOdometryThatNobodyCouldTrustSo) {
+  AgentStatus status{.agent = AgentId("a")};
+  status.following = Following{CarriedBy::kMotion, OdometryTrust{100, 0.0}};
+  EXPECT_TRUE(CheckBounds(status));
+  status.following->odometry->percent = 101;
+  ExpectRefused(status, "trust in odometry");
+  status.following->odometry = OdometryTrust{100, -1.0};
+  ExpectRefused(status, "scale of odometry");
+  status.following->odometry->scale = std::numeric_limits<double>::quiet_NaN();
+  ExpectRefused(status, "scale of odometry");
+  status.following = Following{static_cast<CarriedBy>(4), std::nullopt};
+  ExpectRefused(status, "carried by");
+}
+
 }  // namespace
 }  // namespace trailcast::exchange

@@ -31,11 +31,13 @@ TEST(RobotsThere, AreToldWithWhatTheySayOfThemselves) {
   status.place = {{RouteId(std::string(32, 'a')), TeachingId(1)}, 3.5, 0.012, 0.031};
   status.battery_percent = 62;
   status.software = "0.1.0";
+  status.following = exchange::Following{exchange::CarriedBy::kViews, std::nullopt};
   robots.Hear(status);
   robots.Hear(RobotStatus("robot2"));
   EXPECT_THAT(robots.Text(), HasSubstr("robot1           paused    hall"));
   EXPECT_THAT(robots.Text(), HasSubstr("±3 cm"));
   EXPECT_THAT(robots.Text(), HasSubstr("62 %"));
+  EXPECT_THAT(robots.Text(), HasSubstr("paused by desk: \"rain\"; Follows by its camera alone\n"));
   EXPECT_THAT(robots.Text(), HasSubstr("robot2           waiting   -"));
   const auto json = robots.Json();
   EXPECT_EQ(json[0]["hold"], "paused");
@@ -44,7 +46,9 @@ TEST(RobotsThere, AreToldWithWhatTheySayOfThemselves) {
   EXPECT_EQ(json[0]["battery_percent"], 62);
   EXPECT_EQ(json[0]["link_percent"], nullptr);
   EXPECT_EQ(json[0]["detail"], "paused by desk: \"rain\"");
+  EXPECT_EQ(json[0]["follows_by"], "Follows by its camera alone");
   EXPECT_EQ(json[1]["robot"], "robot2");
+  EXPECT_EQ(json[1]["follows_by"], "");
   EXPECT_EQ(json[1]["mode"], "waiting");
 }
 

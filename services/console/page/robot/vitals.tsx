@@ -30,11 +30,12 @@ function Link({ percent }: { percent: number }) {
 }
 
 export function Vitals({ robot }: { robot: Robot }) {
-  const { battery_percent, link_percent, software } = robot;
+  const { battery_percent, link_percent, software, follows_by } = robot;
   return (
     <ul className="vitals">
       {battery_percent !== null && <Battery percent={battery_percent} />}
       {link_percent !== null && <Link percent={link_percent} />}
+      {follows_by && <li>{follows_by}</li>}
       {software && <li title="Version of its agent">v{software}</li>}
     </ul>
   );
