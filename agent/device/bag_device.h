@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "agent/device/device.h"
 
@@ -13,6 +14,10 @@ struct BagRun {
   std::filesystem::path bag;               // a file, or the folder of a rosbag2 recording
   std::optional<std::string> image_topic;  // nothing: the only one with pictures
   std::optional<std::string> odom_topic;   // nothing: the only one, if any; empty: none
+  // What the base was told (Observation::heard): by the topic that is named, or the only one with
+  // commands, if any.
+  bool hear_commands = false;
+  std::optional<std::string> command_topic{};
 };
 
 // A drive that a robot's own tools recorded (services/bag), as fast as it can be read. Frames have
@@ -27,6 +32,7 @@ class BagDevice final : public RobotDevice {
 
   [[nodiscard]] Result<std::optional<Observation>> Next() override;
   [[nodiscard]] Result<void> Drive(const motion::VelocityCommand&) override { return {}; }
+  [[nodiscard]] std::vector<std::string> TakeNews() override;
   [[nodiscard]] std::string camera() const override;
   [[nodiscard]] std::optional<double> drive_progress() const override;
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "agent/session/observation.h"
 #include "services/base/result.h"
@@ -47,6 +48,9 @@ class RobotDevice {
   // What of a robot has failed, of which nothing is asked now; one line for people, empty: nothing
   // that is known.
   [[nodiscard]] virtual std::string Ailment() { return {}; }
+
+  // What befell its clocks and its odometry since the last call, a line each for people.
+  [[nodiscard]] virtual std::vector<std::string> TakeNews() { return {}; }
 
   // For people: "webcam 320x240", "recorded 160x120".
   [[nodiscard]] virtual std::string camera() const = 0;

@@ -40,6 +40,18 @@ enum class DeviceUse : std::uint8_t { kTeach, kReplay, kOnDuty };
 // simulated one is told a speed, a real one when its drive is over. On duty are no recordings.
 void AddDeviceOptions(CLI::App& command, DeviceOptions& options, DeviceUse use);
 
+// Those of them for a recording: --frames and what goes with it, and --bag. Only one of both.
+struct RecordingFlags {
+  CLI::Option* frames = nullptr;
+  CLI::Option* bag = nullptr;
+};
+RecordingFlags AddRecordingOptions(CLI::App& command, RecordedRun& recorded, BagRun& bag);
+
+// The topics' options, which need the option `robot`, are also a recording's, which finds its own
+// where nothing is said: `bag` takes what the command line says.
+void ShareTopics(CLI::App& command, CLI::Option* robot);
+void TakeTopics(const CLI::App& command, const dds::Ros2Options& topics, BagRun& bag);
+
 // Those of them for a simulated robot. Returns the one that names the world.
 CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool scout);
 

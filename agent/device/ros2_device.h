@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "agent/device/device.h"
 #include "agent/device/obstacle_options.h"
@@ -57,6 +58,7 @@ class Ros2Device final : public RobotDevice {
   [[nodiscard]] std::string camera() const override;
   [[nodiscard]] std::optional<double> drive_progress() const override { return std::nullopt; }
   [[nodiscard]] std::optional<std::uint8_t> battery_percent() const override;
+  [[nodiscard]] std::vector<std::string> TakeNews() override;
   void OnTrouble(const Trouble& tell) override;
   void ByHand(bool begins) override;
   [[nodiscard]] Result<image::GrayImage> Look() override;

@@ -26,6 +26,9 @@ struct Observation {
   // The base was told to drive so since the last frame; nothing: commands move nobody (a
   // recording).
   std::optional<motion::VelocityCommand> told{};
+  // What somebody else was last heard to tell the base; nothing: nobody was, or long ago, or the
+  // device was not asked to listen.
+  std::optional<motion::VelocityCommand> heard{};
 };
 
 }  // namespace trailcast::agent

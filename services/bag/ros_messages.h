@@ -16,6 +16,8 @@ namespace trailcast::bag {
 inline constexpr const char* kImageType = "sensor_msgs/Image";
 inline constexpr const char* kCompressedImageType = "sensor_msgs/CompressedImage";
 inline constexpr const char* kOdometryType = "nav_msgs/Odometry";
+inline constexpr const char* kTwistType = "geometry_msgs/Twist";
+inline constexpr const char* kTwistStampedType = "geometry_msgs/TwistStamped";
 // As above, without the "msg/" that a ROS 2 type has in the middle.
 [[nodiscard]] std::string PlainType(const std::string& type);
 
@@ -36,5 +38,8 @@ struct RosOdometry {
 [[nodiscard]] Result<RosImage> ReadImage(std::span<const std::uint8_t> message);
 [[nodiscard]] Result<RosCompressedImage> ReadCompressedImage(std::span<const std::uint8_t> message);
 [[nodiscard]] Result<RosOdometry> ReadOdometry(std::span<const std::uint8_t> message);
+// Of either type.
+[[nodiscard]] Result<motion::VelocityCommand> ReadTwist(std::span<const std::uint8_t> message,
+                                                        bool stamped);
 
 }  // namespace trailcast::bag

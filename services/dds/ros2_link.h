@@ -37,6 +37,7 @@ struct Ros2Options {
   std::string battery;              // empty: none
   std::string command = "cmd_vel";
   Ros2CommandType command_type = Ros2CommandType::kTwistStamped;
+  bool hear_commands = false;  // the driver takes what others tell the base, too
 
   // "/robot1/image_raw". The others in the same way.
   [[nodiscard]] std::string ImageTopic() const;
@@ -109,7 +110,7 @@ struct Ros2Command {
 };
 
 using Ros2Sensed = std::variant<Ros2Image, Ros2CompressedImage, Ros2Odometry, Ros2Scan, Ros2Range,
-                                Ros2Imu, Ros2Battery>;
+                                Ros2Imu, Ros2Battery, Ros2Command>;
 
 // Who drives the robot: senses and commands. One thread may Take while another calls the rest.
 class Ros2Driver {
@@ -136,6 +137,8 @@ class Ros2Driver {
     std::vector<int> rangers{};  // who publishes each of the range topics
     int imus = 0;                // who publishes the IMU topic
     int batteries = 0;           // who publishes the battery topic
+    // Samples of odometry so far that Take left out.
+    int unusable_odometry = 0;
   };
   [[nodiscard]] virtual Peers peers() const = 0;
 

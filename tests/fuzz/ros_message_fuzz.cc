@@ -22,5 +22,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 std::isfinite(read->pose.heading_rad),
             "a pose is finite");
   }
+  for (const bool stamped : {false, true}) {
+    const auto read = bag::ReadTwist(message, stamped);
+    Require(!read || (std::isfinite(read->linear_mps) && std::isfinite(read->angular_radps)),
+            "a command is finite");
+  }
   return 0;
 }

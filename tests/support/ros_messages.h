@@ -87,4 +87,20 @@ inline std::vector<std::uint8_t> OdometryMessage(std::chrono::nanoseconds stamp,
   return cdr.Message();
 }
 
+inline std::vector<std::uint8_t> TwistMessage(const motion::VelocityCommand& command) {
+  CdrWriter cdr;
+  cdr.PutDouble(command.linear_mps).PutDouble(0.0).PutDouble(0.0);
+  cdr.PutDouble(0.0).PutDouble(0.0).PutDouble(command.angular_radps);
+  return cdr.Message();
+}
+
+inline std::vector<std::uint8_t> TwistStampedMessage(std::chrono::nanoseconds stamp,
+                                                     const motion::VelocityCommand& command) {
+  CdrWriter cdr;
+  cdr.PutHeader(stamp, "base_link");
+  cdr.PutDouble(command.linear_mps).PutDouble(0.0).PutDouble(0.0);
+  cdr.PutDouble(0.0).PutDouble(0.0).PutDouble(command.angular_radps);
+  return cdr.Message();
+}
+
 }  // namespace trailcast::test

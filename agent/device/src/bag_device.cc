@@ -21,15 +21,40 @@ constexpr std::chrono::milliseconds kOdometryNear{500};
 // Stamps whose distance from the recorder's clock differs by more are of different clocks.
 constexpr std::chrono::seconds kRecordersSameClock{2};
 
+// What a base was told longer ago it may not do any more.
+constexpr std::chrono::seconds kCommandHolds{1};
+// More than a message waits to be recorded.
+constexpr std::chrono::seconds kStampsStep{1};
+
 // A message's times: what the sensor stamped (0: nothing), and when it was recorded.
 struct Times {
   SensorTime stamp{};
   nanoseconds logged_at{};
 };
 
+struct Commanded {
+  nanoseconds logged_at{};
+  motion::VelocityCommand velocity;
+};
+
 struct Sample {
   Times times;
   motion::Pose2 pose;
+};
+
+// Tells where a topic's stamps step against the recorder's clock.
+class StampSteps {
+ public:
+  // How far they have just stepped; nothing: they go on, or there are none.
+  [[nodiscard]] std::optional<nanoseconds> Add(const Times& times) {
+    if (times.stamp == SensorTime(0)) return std::nullopt;
+    const nanoseconds ahead = times.stamp - times.logged_at;
+    const auto step = ahead - std::exchange(ahead_, ahead).value_or(ahead);
+    return std::chrono::abs(step) > kStampsStep ? std::optional(step) : std::nullopt;
+  }
+
+ private:
+  std::optional<nanoseconds> ahead_;
 };
 
 bool OfOneClock(const Times& a, const Times& b) {
@@ -60,11 +85,15 @@ struct LeftOut {
 
 struct BagDevice::State {
   [[nodiscard]] Result<void> ReadOdometry();
+  [[nodiscard]] Result<void> ReadCommands();
+  [[nodiscard]] std::optional<motion::VelocityCommand> HeardAt(nanoseconds logged_at) const;
   [[nodiscard]] Result<void> ChooseClock();
   [[nodiscard]] Result<Times> TimesOf(const bag::Message& message) const;
   [[nodiscard]] Result<image::GrayImage> Gray(const bag::Message& message) const;
   [[nodiscard]] Result<std::optional<Observation>> Next();
   [[nodiscard]] Result<std::optional<Observation>> Look(const bag::Message& message);
+  void Tell(std::string what);
+  void TellStep(const std::string& topic, const Times& times, StampSteps& steps);
   void TellDamage();
   void TellEnd();
 
@@ -72,6 +101,7 @@ struct BagDevice::State {
   std::unique_ptr<bag::Bag> bag;
   BagTopics topics;
   std::vector<Sample> odometry;
+  std::vector<Commanded> commands;
   std::optional<RecordedPoses> poses;
   bool by_stamps = true;             // else by the times of recording
   std::optional<Observation> first;  // until it is handed out
@@ -80,20 +110,40 @@ struct BagDevice::State {
   std::uint64_t pictures = 0;  // looked at
   LeftOut left_out;
   std::size_t damage_told = 0;
+  std::optional<nanoseconds> recorded_from;  // the first message that was looked at
+  StampSteps picture_steps;
+  std::vector<std::string> news;
   int width_px = 0;
   int height_px = 0;
 };
+
+void BagDevice::State::Tell(std::string what) {
+  spdlog::warn("{}", what);
+  news.push_back(std::move(what));
+}
+
+void BagDevice::State::TellStep(const std::string& topic, const Times& times, StampSteps& steps) {
+  if (!recorded_from) recorded_from = times.logged_at;
+  const auto step = steps.Add(times);
+  if (!step) return;
+  Tell(
+      fmt::format("the stamps of {} step by {:+.2f} s against the recorder's clock, {:.2f} s into "
+                  "the recording",
+                  topic, Seconds(*step), Seconds(times.logged_at - *recorded_from)));
+}
 
 Result<void> BagDevice::State::ReadOdometry() {
   if (!topics.odometry) return {};
   bag->Begin(*topics.odometry);
   int damaged = 0;
+  StampSteps steps;
   while (true) {
     const auto message = bag->Next();
     if (!message) return tl::unexpected(message.error());
     if (!*message) break;
     if (const auto read = bag::ReadOdometry((*message)->bytes)) {
       odometry.push_back({{read->stamp, (*message)->logged_at}, read->pose});
+      TellStep(topics.odometry->name, odometry.back().times, steps);
     } else {
       ++damaged;
     }
@@ -104,9 +154,36 @@ Result<void> BagDevice::State::ReadOdometry() {
                 name.string(), topics.odometry->name);
   }
   if (damaged > 0) {
-    spdlog::warn("{} damaged messages of {} are left out", damaged, topics.odometry->name);
+    Tell(fmt::format(
+        "{} of {} messages of {} are left out: damaged, numbers that are none, or an orientation "
+        "of length 0",
+        damaged, odometry.size() + static_cast<std::size_t>(damaged), topics.odometry->name));
   }
   return {};
+}
+
+// Damaged ones are as good as none.
+Result<void> BagDevice::State::ReadCommands() {
+  if (!topics.commands) return {};
+  const bool stamped = bag::PlainType(topics.commands->type) == bag::kTwistStampedType;
+  bag->Begin(*topics.commands);
+  while (true) {
+    const auto message = bag->Next();
+    if (!message) return tl::unexpected(message.error());
+    if (!*message) return {};
+    const auto velocity = bag::ReadTwist((*message)->bytes, stamped);
+    if (velocity) commands.push_back({(*message)->logged_at, *velocity});
+  }
+}
+
+std::optional<motion::VelocityCommand> BagDevice::State::HeardAt(nanoseconds logged_at) const {
+  const auto after = std::upper_bound(
+      commands.begin(), commands.end(), logged_at,
+      [](nanoseconds time, const Commanded& command) { return time < command.logged_at; });
+  if (after == commands.begin()) return std::nullopt;
+  const Commanded& newest = *std::prev(after);
+  if (logged_at - newest.logged_at > kCommandHolds) return std::nullopt;
+  return newest.velocity;
 }
 
 Result<Times> BagDevice::State::TimesOf(const bag::Message& message) const {
@@ -131,7 +208,7 @@ Result<void> BagDevice::State::ChooseClock() {
     if (!times) continue;
     by_stamps = times->stamp != SensorTime(0);
     if (by_stamps && !odometry.empty() && !OfOneClock(*times, odometry.front().times)) {
-      spdlog::warn(
+      Tell(
           "stamps of pictures and odometry are of different clocks: taking the times at which they "
           "were recorded");
       by_stamps = false;
@@ -170,6 +247,7 @@ Result<std::optional<Observation>> BagDevice::State::Look(const bag::Message& me
   };
   const auto times = TimesOf(message);
   if (!times) return unreadable(times.error());
+  TellStep(topics.image.name, *times, picture_steps);
   Observation observation;
   observation.stamp = by_stamps ? times->stamp : times->logged_at;
   if (last && observation.stamp <= *last) {
@@ -186,11 +264,12 @@ Result<std::optional<Observation>> BagDevice::State::Look(const bag::Message& me
   auto gray = Gray(message);
   if (!gray) return unreadable(gray.error());
   observation.image = std::move(*gray);
+  observation.heard = HeardAt(times->logged_at);
   if (!begun) begun = observation.stamp;
   if (topics.odometry) {
-    std::vector<std::string> news;
-    observation.unknown = poses->TakeUnknown(observation.stamp, news);
-    for (const std::string& each : news) {
+    std::vector<std::string> jumps;
+    observation.unknown = poses->TakeUnknown(observation.stamp, jumps);
+    for (const std::string& each : jumps) {
       spdlog::warn("{:.2f} s into the drive {}", Seconds(observation.stamp - *begun), each);
     }
   }
@@ -217,7 +296,7 @@ void BagDevice::State::TellDamage() {
 
 void BagDevice::State::TellEnd() {
   const std::string text = std::exchange(left_out, {}).Text();
-  if (!text.empty()) spdlog::warn("of {} pictures are left out: {}", pictures, text);
+  if (!text.empty()) Tell(fmt::format("of {} pictures are left out: {}", pictures, text));
 }
 
 BagDevice::BagDevice(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -237,6 +316,7 @@ Result<std::unique_ptr<BagDevice>> BagDevice::Open(const BagRun& run) {
     if (auto can = image::CanDecode(); !can) return Wrap(can.error(), state->topics.image.name);
   }
   if (auto read = state->ReadOdometry(); !read) return tl::unexpected(read.error());
+  if (auto read = state->ReadCommands(); !read) return tl::unexpected(read.error());
   if (auto chosen = state->ChooseClock(); !chosen) return tl::unexpected(chosen.error());
   auto first = state->Next();
   if (!first) return Wrap(first.error(), run.bag.string());
@@ -256,6 +336,8 @@ Result<std::optional<Observation>> BagDevice::Next() {
   if (next && !*next) state_->TellEnd();
   return next;
 }
+
+std::vector<std::string> BagDevice::TakeNews() { return std::exchange(state_->news, {}); }
 
 std::string BagDevice::camera() const {
   return fmt::format("recorded {}x{}", state_->width_px, state_->height_px);

@@ -19,6 +19,7 @@ struct Kind {
   const char* option;
 };
 const Kind kPictures{{bag::kImageType, bag::kCompressedImageType}, "pictures", "--image-topic"};
+const Kind kCommands{{bag::kTwistType, bag::kTwistStampedType}, "commands", "--cmd-vel-topic"};
 const Kind kOdometry{{bag::kOdometryType}, "odometry", "--odom-topic"};
 
 bool IsOf(const Topic& topic, const Kind& kind) {
@@ -100,7 +101,14 @@ Result<BagTopics> ChooseTopics(const std::vector<Topic>& topics, const BagRun& r
     return Fail(ErrorCode::kNotFound, "no topic with pictures ({}); {}",
                 fmt::join(kPictures.types, " or "), Listed(topics));
   }
-  BagTopics chosen{**image, bag::PlainType((*image)->type) == bag::kCompressedImageType, {}};
+  BagTopics chosen{**image, bag::PlainType((*image)->type) == bag::kCompressedImageType, {}, {}};
+  // Without being asked for one, a choice between several is none.
+  const bool named = run.command_topic && !run.command_topic->empty();
+  if (run.hear_commands && (named || Candidates(topics, kCommands).size() == 1)) {
+    const auto commands = Find(topics, kCommands, run.command_topic);
+    if (!commands) return tl::unexpected(commands.error());
+    chosen.commands = *commands;
+  }
   if (run.odom_topic && run.odom_topic->empty()) return chosen;
   const auto odometry = Find(topics, kOdometry, run.odom_topic);
   if (!odometry) return tl::unexpected(odometry.error());

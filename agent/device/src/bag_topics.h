@@ -12,6 +12,7 @@ struct BagTopics {
   bag::Topic image;
   bool compressed = false;
   std::optional<bag::Topic> odometry;
+  std::optional<bag::Topic> commands;  // where the run asks for them
 };
 
 // Those that `run` names, or that there is no other choice of. kNotFound, kInvalidArgument: what is

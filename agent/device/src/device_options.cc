@@ -65,13 +65,6 @@ void CheckObstacleOptions(const CLI::App& command, const dds::Ros2Options& topic
   }
 }
 
-// The topics' options are also a recording's, which finds its own where nothing is said.
-void ShareTopics(CLI::App& command, CLI::Option* ros2) {
-  for (const char* name : {"--image-topic", "--odom-topic"}) {
-    command.get_option(name)->remove_needs(ros2);
-  }
-}
-
 // What is asked of them together, once all have been read.
 void CheckTogether(CLI::App& command, DeviceOptions& options, DeviceUse use) {
   command.callback([&command, &options, use] {
@@ -91,8 +84,7 @@ void CheckTogether(CLI::App& command, DeviceOptions& options, DeviceUse use) {
     if (options.pass_obstacles_m > 0.0 && options.ros2.topics.odometry.empty()) {
       throw CLI::RequiresError("--pass-obstacles", "--odom-topic");
     }
-    if (image) options.bag.image_topic = options.ros2.topics.image;
-    if (odometry) options.bag.odom_topic = options.ros2.topics.odometry;
+    TakeTopics(command, options.ros2.topics, options.bag);
   });
 }
 
@@ -261,6 +253,25 @@ Result<std::unique_ptr<RobotDevice>> OpenRos2(const DeviceOptions& options,
 }
 
 }  // namespace
+
+RecordingFlags AddRecordingOptions(CLI::App& command, RecordedRun& recorded, BagRun& bag) {
+  RecordingFlags flags;
+  flags.frames = AddRecordedOptions(command, recorded);
+  flags.bag = AddBagOption(command, bag, flags.frames);
+  return flags;
+}
+
+void ShareTopics(CLI::App& command, CLI::Option* robot) {
+  for (const char* name : {"--image-topic", "--odom-topic"}) {
+    command.get_option(name)->remove_needs(robot);
+  }
+}
+
+void TakeTopics(const CLI::App& command, const dds::Ros2Options& topics, BagRun& bag) {
+  if (command.count("--image-topic") > 0) bag.image_topic = topics.image;
+  if (command.count("--odom-topic") > 0) bag.odom_topic = topics.odometry;
+  if (command.count("--cmd-vel-topic") > 0) bag.command_topic = topics.command;
+}
 
 CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool scout) {
   SimulatedRun& simulated = options.simulated;
@@ -447,15 +458,16 @@ void AddCameraRoll(CLI::App& command, vision::IntakeOptions& intake) {
 
 void AddDeviceOptions(CLI::App& command, DeviceOptions& options, DeviceUse use) {
   const bool scout = use == DeviceUse::kTeach;
-  CLI::Option* frames =
-      use == DeviceUse::kOnDuty ? nullptr : AddRecordedOptions(command, options.recorded);
+  RecordingFlags recording;
+  if (use != DeviceUse::kOnDuty) {
+    recording = AddRecordingOptions(command, options.recorded, options.bag);
+  }
   auto* world = AddSimulatedOptions(command, options, scout);
   auto* ros2 = AddRos2Options(command, options, scout);
   ros2->excludes(world);
-  if (frames != nullptr) {
-    auto* bag = AddBagOption(command, options.bag, frames);
-    world->excludes(frames)->excludes(bag);
-    ros2->excludes(frames)->excludes(bag);
+  if (recording.frames != nullptr) {
+    world->excludes(recording.frames)->excludes(recording.bag);
+    ros2->excludes(recording.frames)->excludes(recording.bag);
     ShareTopics(command, ros2);
   }
   AddCameraRoll(command, options.intake);

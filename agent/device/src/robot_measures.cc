@@ -6,13 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "agent/device/src/picture_steps.h"
 #include "agent/device/src/ros2_picture.h"
 #include "agent/device/src/scan_measures.h"
-#include "agent/device/src/turn_series.h"
 #include "agent/device/stamp_clock.h"
 #include "services/base/angles.h"
-#include "services/base/median.h"
-#include "services/vision/feature_tracker.h"
+#include "services/odometry/turn_series.h"
 
 namespace trailcast::agent {
 namespace {
@@ -25,7 +24,6 @@ constexpr milliseconds kAppear{5000};  // how long a robot may take to be discov
 constexpr milliseconds kTurn{1500};    // each way
 constexpr milliseconds kSettle{500};
 constexpr double kTurns_rad = 0.02;  // more than odometry's noise
-constexpr int kFewFeatures = 8;
 
 double SecondsOf(steady_clock::time_point time) { return Seconds(time.time_since_epoch()); }
 
@@ -38,32 +36,19 @@ double Rate(int count, double first_s, double last_s) {
 // of the width.
 class PictureShift {
  public:
-  explicit PictureShift(const vision::IntakeOptions& intake) : intake_(intake) {}
+  explicit PictureShift(const vision::IntakeOptions& intake) : steps_(intake) {}
 
   void Add(const image::GrayImage& frame) {
-    const image::GrayImage& picture = intake_.Take(frame);
-    const std::vector<route::TrackedFeature> before = tracker_.Current();
-    const std::vector<route::TrackedFeature> now = tracker_.Track(picture);
-    std::vector<double> right;
-    std::vector<double> down;
-    std::size_t i = 0;
-    for (const route::TrackedFeature& feature : now) {
-      while (i < before.size() && before[i].id != feature.id) ++i;
-      if (i == before.size()) break;
-      right.push_back(feature.u_px - before[i].u_px);
-      down.push_back(feature.v_px - before[i].v_px);
-    }
-    if (static_cast<int>(now.size()) < kFewFeatures) tracker_.Detect();
-    if (right.empty()) return;
-    right_ += Median(right) / picture.width;
-    down_ += Median(down) / picture.width;
+    const auto step = steps_.Add(frame);
+    if (!step) return;
+    right_ += step->turn_rad * steps_.focal_share();
+    down_ += step->down_share;
   }
   [[nodiscard]] double right() const { return right_; }
   [[nodiscard]] double down() const { return down_; }
 
  private:
-  vision::PictureIntake intake_;
-  vision::FeatureTracker tracker_;
+  PictureSteps steps_;
   double right_ = 0.0;
   double down_ = 0.0;
 };
@@ -99,9 +84,9 @@ class Measuring {
   std::vector<Coming> ranges_come_;
   std::vector<double> came_s_;  // pictures
   // By stamps; odometry's also by when it came.
-  std::vector<TimedValue> shifts_;
-  std::vector<TimedValue> headings_;
-  std::vector<TimedValue> headings_came_;
+  std::vector<odometry::TimedValue> shifts_;
+  std::vector<odometry::TimedValue> headings_;
+  std::vector<odometry::TimedValue> headings_came_;
 };
 
 void Measuring::Note(const dds::Ros2Odometry& odometry, steady_clock::time_point now) {
@@ -160,6 +145,8 @@ void Measuring::Listen(milliseconds duration,
         Note(*scan, now);
       } else if (const auto* range = std::get_if<dds::Ros2Range>(&sensed)) {
         Note(*range, now);
+      } else if (std::holds_alternative<dds::Ros2Command>(sensed)) {
+        continue;  // told by whoever drives it meanwhile
       } else if (auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&sensed)) {
         Note(Ros2Picture(std::move(*jpeg)), now);
       } else {
@@ -183,14 +170,14 @@ TurnMeasures Measuring::Turn() {
   turn.odometry_rad = headings_.back().value - heading_rad;
   turn.picture_share = shifts_.back().value - shift;
   turn.picture_down_share = shift_.down() - down;
-  for (const TimedValue& each : headings_came_) {
+  for (const odometry::TimedValue& each : headings_came_) {
     if (each.t_s < told_s || std::abs(each.value - heading_rad) < kTurns_rad) continue;
     turn.base_delay_s = each.t_s - told_s;
     break;
   }
   Listen(kTurn, motion::VelocityCommand{-left.linear_mps, -left.angular_radps});
   Listen(kSettle, motion::VelocityCommand{});
-  turn.stamps_late_s = LagOf(shifts_, headings_);
+  if (const auto lag = odometry::LagOf(shifts_, headings_)) turn.stamps_late_s = lag->s;
   return turn;
 }
 

@@ -20,6 +20,8 @@ using std::chrono::steady_clock;
 constexpr std::chrono::hours kLockstepTimeout{24};
 // Odometry of a frame's own moment may arrive a little after the frame.
 constexpr milliseconds kOdometryLate{60};
+// What a base was told longer ago it may not do any more.
+constexpr std::chrono::seconds kCommandHolds{1};
 // What a battery said longer ago is not known any more. Slow ones speak twice a minute.
 constexpr std::chrono::minutes kBatteryCounts{2};
 // No base that is driven by our commands or by a person does more; those told to be faster do.
@@ -142,7 +144,11 @@ void Ros2Device::State::ShareTrouble() {
 }
 
 void Ros2Device::State::ShareNews() {
-  for (const std::string& line : poses.TakeNews()) spdlog::warn("{}", line);
+  constexpr std::size_t kMostKept = 100;
+  for (std::string& line : poses.TakeNews()) {
+    spdlog::warn("{}", line);
+    if (told_news.size() < kMostKept) told_news.push_back(std::move(line));
+  }
 }
 
 // An IMU that says nothing fails nobody; but whoever asked for it should know.
@@ -235,6 +241,7 @@ Result<std::optional<Observation>> Ros2Device::Next() {
       if (s.still.Over(frame.taken, *observation.odometry)) return std::nullopt;
     }
     observation.imu = s.TakeImu();
+    if (steady_clock::now() - s.heard_at < kCommandHolds) observation.heard = s.heard;
     guard.unlock();
     auto gray = Gray(frame.picture, s.run.topics.ImageTopic());
     const bool over = gray && s.still_by_sight.Over(frame.taken, *gray);
@@ -271,6 +278,18 @@ std::optional<std::uint8_t> Ros2Device::battery_percent() const {
   const std::lock_guard guard(s.lock);
   const bool old = s.run.clock() > s.battery_heard_at + kBatteryCounts;
   return old ? std::nullopt : s.battery_percent;
+}
+
+std::vector<std::string> Ros2Device::TakeNews() {
+  const std::lock_guard guard(state_->lock);
+  std::vector<std::string> news = std::exchange(state_->told_news, {});
+  if (const auto unusable = state_->driver->peers().unusable_odometry; unusable > 0) {
+    news.push_back(fmt::format(
+        "{} messages of {} so far are left out: numbers that are none, or an orientation of length "
+        "0",
+        unusable, state_->run.topics.OdometryTopic()));
+  }
+  return news;
 }
 
 void Ros2Device::ByHand(bool begins) {

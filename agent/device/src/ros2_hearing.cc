@@ -59,6 +59,11 @@ void Ros2Device::State::Keep(dds::Ros2Sensed sensed, steady_clock::time_point no
     KeepBattery(*battery, now);
     return;
   }
+  if (const auto* command = std::get_if<dds::Ros2Command>(&sensed)) {
+    heard = command->velocity;
+    heard_at = now;
+    return;
+  }
   if (auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&sensed)) {
     KeepFrame(std::move(*jpeg), now);
   } else {

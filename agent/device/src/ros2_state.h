@@ -94,7 +94,9 @@ struct Ros2Device::State {
   bool by_hand = false;                    // Next does not wait for the way to be free
   bool backs_unseen = false;               // it is told to
   SensedPoses poses;
-  bool odometry_stands = false;        // it comes, with stamps that do not advance
+  bool odometry_stands = false;                  // it comes, with stamps that do not advance
+  std::optional<motion::VelocityCommand> heard;  // what somebody else told the base last
+  std::chrono::steady_clock::time_point heard_at;
   std::vector<motion::ImuSample> imu;  // since the last frame that was handed out
   motion::BatteryGauge gauge;
   std::optional<std::uint8_t> battery_percent;
@@ -117,6 +119,7 @@ struct Ros2Device::State {
   std::optional<RobotWatch::Trouble> trouble;
   std::chrono::steady_clock::time_point waiting_since;  // for a frame
   Halt shared;
+  std::vector<std::string> told_news;  // until TakeNews, the first of them
   StillWatch still;
   StillPictureWatch still_by_sight;  // without odometry; the driving thread's, without the lock
   int width_px = 0;

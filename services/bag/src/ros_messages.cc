@@ -69,4 +69,18 @@ Result<RosOdometry> ReadOdometry(std::span<const std::uint8_t> message) {
   return odometry;
 }
 
+Result<motion::VelocityCommand> ReadTwist(std::span<const std::uint8_t> message, bool stamped) {
+  CdrReader cdr(message);
+  if (stamped) (void)TakeHeader(cdr);
+  motion::VelocityCommand command;
+  command.linear_mps = cdr.TakeDouble();
+  // To the side, up, and about those axes.
+  for (int i = 0; i < 4; ++i) (void)cdr.TakeDouble();
+  command.angular_radps = cdr.TakeDouble();
+  if (cdr.failed() || !std::isfinite(command.linear_mps) || !std::isfinite(command.angular_radps)) {
+    return Damaged(stamped ? kTwistStampedType : kTwistType);
+  }
+  return command;
+}
+
 }  // namespace trailcast::bag

@@ -72,6 +72,26 @@ TEST(ReadOdometry, NumbersThatAreNoneAreDamage) {
   EXPECT_FALSE(ReadOdometry(test::OdometryMessage(kStamp, {0.0, 0.0, nan})));
 }
 
+TEST(ReadTwist, OfEitherType) {
+  const motion::VelocityCommand told{0.4, -0.7};
+  const auto plain = ReadTwist(test::TwistMessage(told), false);
+  ASSERT_TRUE(plain) << plain.error().message;
+  EXPECT_EQ(*plain, told);
+  const auto stamped = ReadTwist(test::TwistStampedMessage(kStamp, told), true);
+  ASSERT_TRUE(stamped) << stamped.error().message;
+  EXPECT_EQ(*stamped, told);
+}
+
+TEST(ReadTwist, NumbersThatAreNoneAndTooFewOfThemAreDamage) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(ReadTwist(test::TwistMessage({nan, 0.0}), false));
+  EXPECT_FALSE(ReadTwist(test::TwistMessage({0.0, nan}), false));
+  const Bytes whole = test::TwistStampedMessage(kStamp, {0.4, -0.7});
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    ASSERT_FALSE(ReadTwist(std::span(whole).first(size), true)) << size;
+  }
+}
+
 TEST(RosMessages, CutAnywhereAreDamage) {
   const Bytes image = test::ImageMessage(kStamp, kPicture);
   for (std::size_t size = 0; size < image.size(); ++size) {

@@ -25,6 +25,7 @@ using testing::IsEmpty;
 const std::map<std::string, Rooms> kMayInclude{
     {"services/base", {}},
     {"services/motion", {"services/base"}},
+    {"services/odometry", {"services/base", "services/motion"}},
     {"services/image", {"services/base"}},
     {"services/bag", {"services/base", "services/motion", "services/image"}},
     {"services/route", {"services/base", "services/motion"}},
@@ -72,8 +73,9 @@ const std::map<std::string, Rooms> kMayInclude{
      {"services/base", "services/motion", "services/image", "services/bag", "services/route",
       "services/vision", "services/replay", "agent/session"}},
     {"agent/device",
-     {"services/base", "services/motion", "services/image", "services/vision", "services/bag",
-      "services/dds", "services/program", "agent/session"}},
+     {"services/base", "services/motion", "services/odometry", "services/image", "services/route",
+      "services/view", "services/vision", "services/teach", "services/bag", "services/dds",
+      "services/program", "agent/session"}},
     {"agent/link",
      {"services/base", "services/route", "services/mission", "services/store", "services/exchange",
       "services/program", "agent/session"}},
@@ -127,13 +129,15 @@ const std::map<std::string, Rooms> kMayInclude{
      {"services/base", "services/image", "services/exchange", "services/fleet", "services/mission",
       "services/network", "services/program", "services/plot", "services/lab/sim",
       "services/lab/trial"}},
-    {"services/tool",
-     {"services/base",          "services/fleet",    "services/image",     "services/route",
-      "services/view",          "services/mission",  "services/network",   "services/vision",
-      "services/store",         "services/exchange", "services/archive",   "services/catalog",
-      "services/security",      "services/program",  "services/plot",      "services/explain",
-      "services/joints",        "services/lab/sim",  "services/lab/trial", "services/lab/demo",
-      "services/lab/simulated", "agent/session",     "agent/diagnosis",    "agent/device"}},
+    {"services/tool", {"services/base",      "services/fleet",    "services/image",
+                       "services/route",     "services/view",     "services/mission",
+                       "services/network",   "services/vision",   "services/store",
+                       "services/exchange",  "services/archive",  "services/catalog",
+                       "services/security",  "services/program",  "services/plot",
+                       "services/explain",   "services/joints",   "services/lab/sim",
+                       "services/lab/trial", "services/lab/demo", "services/lab/simulated",
+                       "services/odometry",  "agent/session",     "agent/diagnosis",
+                       "agent/device"}},
 };
 
 // The rooms where each third-party library may be used, by the beginning of its headers' names; "*"
@@ -283,8 +287,8 @@ bool ReadsAClock(const std::string& line) {
 }
 
 TEST(Layering, VisionTeachingReplayAndSessionsReadNoClock) {
-  const Rooms pure{"services/motion", "services/vision", "services/teach",
-                   "services/replay", "services/belief", "agent/session"};
+  const Rooms pure{"services/motion", "services/odometry", "services/vision", "services/teach",
+                   "services/replay", "services/belief",   "agent/session"};
   std::vector<std::string> readers;
   for (const SourceLine& line : ReadSources()) {
     if (pure.contains(line.room) && ReadsAClock(line.text)) readers.push_back(line.where);

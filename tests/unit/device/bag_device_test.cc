@@ -114,6 +114,74 @@ TEST_F(BagDeviceTest, ADriveAsFastAsACarsIsNoJump) {
   for (const Observation& each : all) EXPECT_EQ(each.unknown.distance_m, 0.0);
 }
 
+TEST_F(BagDeviceTest, WhatTheBaseWasToldIsHeardWhereItIsAskedForWhileItHolds) {
+  for (int at = 0; at <= 3000; at += 100) {
+    Odometry(milliseconds(at));
+    Picture(milliseconds(at), at / 100);
+  }
+  const auto tell = [&](int at, double linear_mps) {
+    Writer().Put("/cmd_vel", "geometry_msgs/msg/Twist", kBegin + milliseconds(at) + kDelay,
+                 test::TwistMessage({linear_mps, 0.1}));
+  };
+  tell(450, 0.3);
+  tell(850, 0.4);
+  const auto without = Open();
+  ASSERT_TRUE(without) << without.error().message;
+  for (const Observation& each : All(**without)) EXPECT_FALSE(each.heard);
+  BagRun run;
+  run.hear_commands = true;
+  const auto device = Open(run);
+  ASSERT_TRUE(device) << device.error().message;
+  const auto all = All(**device);
+  ASSERT_EQ(all.size(), 31U);
+  EXPECT_FALSE(all[4].heard);
+  EXPECT_EQ(all[5].heard, (motion::VelocityCommand{0.3, 0.1}));
+  EXPECT_EQ(all[9].heard, (motion::VelocityCommand{0.4, 0.1}));
+  EXPECT_TRUE(all[18].heard);
+  EXPECT_FALSE(all[19].heard) << "a second and more ago";
+}
+
+TEST_F(BagDeviceTest, TheCommandsTopicIsTheOneThatIsNamedWhereThereAreSeveral) {
+  Picture(milliseconds(100));
+  Odometry(milliseconds(100));
+  for (const char* topic : {"/cmd_vel", "/joystick"}) {
+    Writer().Put(topic, "geometry_msgs/msg/Twist", kBegin, test::TwistMessage({0.3, 0.0}));
+  }
+  BagRun run;
+  run.hear_commands = true;
+  const auto unnamed = Open(run);
+  ASSERT_TRUE(unnamed) << unnamed.error().message;
+  EXPECT_FALSE(All(**unnamed).front().heard);
+  run.command_topic = "/joystick";
+  const auto named = Open(run);
+  ASSERT_TRUE(named) << named.error().message;
+  EXPECT_TRUE(All(**named).front().heard);
+  run.command_topic = "/nobody";
+  EXPECT_THAT(ErrorOf(run), HasSubstr("no topic /nobody; there are: "));
+}
+
+TEST_F(BagDeviceTest, TellsOfClocksThatStepAndOfOdometryThatIsNone) {
+  for (int at = 0; at <= 2000; at += 100) {
+    Picture(milliseconds(at), at / 100);
+    const auto clock = kBegin + (at < 1000 ? milliseconds(0) : milliseconds(1500));
+    Odometry(milliseconds(at), clock);
+  }
+  auto zeros = test::OdometryMessage(kBegin, {});
+  std::fill(zeros.end() - static_cast<std::ptrdiff_t>((78 + 4) * sizeof(double)),
+            zeros.end() - static_cast<std::ptrdiff_t>(78 * sizeof(double)), std::uint8_t{0});
+  Writer().Put("/odom", kOdometry, kBegin + milliseconds(2100), zeros);
+  const auto device = Open();
+  ASSERT_TRUE(device) << device.error().message;
+  (void)All(**device);
+  const auto news = (*device)->TakeNews();
+  ASSERT_GE(news.size(), 2U);
+  EXPECT_THAT(news[0], HasSubstr("the stamps of /odom step by +1.50 s against the recorder's "
+                                 "clock, 1.00 s into the recording"));
+  EXPECT_THAT(news[1], AllOf(HasSubstr("1 of 22 messages of /odom are left out"),
+                             HasSubstr("an orientation of length 0")));
+  EXPECT_THAT((*device)->TakeNews(), testing::IsEmpty());
+}
+
 TEST_F(BagDeviceTest, PicturesFarFromAnyOdometryAreLeftOut) {
   for (int at = 1000; at <= 1400; at += 100) Odometry(milliseconds(at));
   for (int at = 3000; at <= 3400; at += 100) Odometry(milliseconds(at));

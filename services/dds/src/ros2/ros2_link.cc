@@ -1,6 +1,7 @@
 #include "services/dds/ros2_link.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cstdlib>
 #include <utility>
@@ -164,6 +165,7 @@ struct DriverState {
   std::vector<Reader> ranges;
   std::optional<Reader> imu;
   std::optional<Reader> battery;
+  std::optional<Reader> others_commands;
   Writer command;
 };
 
@@ -176,6 +178,7 @@ class Ros2DdsDriver final : public Ros2Driver {
 
  private:
   DriverState state_;
+  std::atomic<int> unusable_odometry_ = 0;
 };
 
 }  // namespace
@@ -217,12 +220,22 @@ Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options)
     if (!reader) return tl::unexpected(reader.error());
     ranges.push_back(*std::move(reader));
   }
+  std::optional<Reader> others_commands;
+  if (options.hear_commands) {
+    Qos qos = SensorQos(1);
+    // Not what this driver says; nor is it a base that listens to it.
+    dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+    auto reader = node->Hear(CommandType(options.command_type), options.CommandTopic(), qos);
+    if (!reader) return tl::unexpected(reader.error());
+    others_commands = *std::move(reader);
+  }
   auto command =
       node->Speak(CommandType(options.command_type), options.CommandTopic(), ReliableQos(1));
   if (!command) return tl::unexpected(command.error());
-  return std::make_unique<Ros2DdsDriver>(DriverState{
-      options, std::move(network), *std::move(node), *std::move(image), std::move(odometry),
-      std::move(scan), std::move(ranges), std::move(imu), std::move(battery), *std::move(command)});
+  return std::make_unique<Ros2DdsDriver>(
+      DriverState{options, std::move(network), *std::move(node), *std::move(image),
+                  std::move(odometry), std::move(scan), std::move(ranges), std::move(imu),
+                  std::move(battery), std::move(others_commands), *std::move(command)});
 }
 
 std::vector<Ros2Sensed> Ros2DdsDriver::Take(std::chrono::milliseconds max_wait) {
@@ -234,7 +247,11 @@ std::vector<Ros2Sensed> Ros2DdsDriver::Take(std::chrono::milliseconds max_wait) 
     (void)s.odometry->Take(kMaxSamplesPerTake,
                            [&](const void* sample, const dds_sample_info_t& info) {
                              if (!info.valid_data) return;
-                             if (auto pose = OdometryFromWire(sample)) sensed.emplace_back(*pose);
+                             if (auto pose = OdometryFromWire(sample)) {
+                               sensed.emplace_back(*pose);
+                             } else {
+                               ++unusable_odometry_;
+                             }
                            });
   }
   if (s.scan) {
@@ -262,6 +279,15 @@ std::vector<Ros2Sensed> Ros2DdsDriver::Take(std::chrono::milliseconds max_wait) 
                             if (info.valid_data) sensed.emplace_back(BatteryFromWire(sample));
                           });
   }
+  if (s.others_commands) {
+    (void)s.others_commands->Take(
+        kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
+          if (!info.valid_data) return;
+          if (auto said = CommandFromWire(sample, s.options.command_type)) {
+            sensed.emplace_back(*said);
+          }
+        });
+  }
   (void)s.image.Take(kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
     if (info.valid_data) {
       sensed.push_back(ImageFromWire(sample, s.options.image_is_compressed()));
@@ -279,6 +305,7 @@ Ros2Driver::Peers Ros2DdsDriver::peers() const {
   const DriverState& s = state_;
   Peers peers;
   peers.tried = s.network.tried;
+  peers.unusable_odometry = unusable_odometry_;
   peers.cameras = s.image.matched();
   peers.bases = s.command.matched();
   std::vector<std::string> mismatches{

@@ -1,11 +1,11 @@
-#include "agent/device/src/turn_series.h"
+#include "services/odometry/turn_series.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace trailcast::agent {
+namespace trailcast::odometry {
 namespace {
 
 // To the left and back within three seconds, so much later.
@@ -21,9 +21,10 @@ std::vector<TimedValue> Turn(double rate_hz, double late_s, double scale) {
 TEST(LagOf, IsHowMuchLaterTheOneTurns) {
   const auto odometry = Turn(50.0, 0.0, 0.4);
   for (const double late_s : {-0.3, 0.0, 0.12, 0.4}) {
-    const auto lag_s = LagOf(Turn(30.0, late_s, -0.2), odometry);
-    ASSERT_TRUE(lag_s) << late_s;
-    EXPECT_NEAR(*lag_s, late_s, 0.021);
+    const auto lag = LagOf(Turn(30.0, late_s, -0.2), odometry);
+    ASSERT_TRUE(lag) << late_s;
+    EXPECT_NEAR(lag->s, late_s, 0.021);
+    EXPECT_LT(lag->correlation, -0.9);
   }
 }
 
@@ -44,4 +45,4 @@ TEST(ValueAt, IsBetweenTheTwoAboutIt) {
 }
 
 }  // namespace
-}  // namespace trailcast::agent
+}  // namespace trailcast::odometry
