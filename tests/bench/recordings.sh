@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # The pairs of the given recordings that `./run recordings` judges, as a file for `trailcast judge --pairs`:
-#   tests/bench/recordings.sh [plain|disturbed|refreshed|wheels|all] >pairs.csv
+#   tests/bench/recordings.sh [plain|disturbed|refreshed|wheels|rates|all] >pairs.csv
 # plain: what was taught, the same way at another time, and every recording of another place;
 # disturbed: the same ways with what is done to the replays; refreshed: laps of the patio, as they are and
 # disturbed, on a route that another lap has refreshed; wheels: laps of two cars, without odometry, with what
-# was reckoned from their commands, and with that made wrong in named ways. Followers are tuned on donkey_track and
+# was reckoned from their commands, and with that made wrong in named ways; rates: the same ways as in plain, of
+# recordings that are said to have 5, 10, 20 and 30 frames a second. Followers are tuned on donkey_track and
 # night_drive alone; what has anything of the others in it is held out.
 set -euo pipefail
 
@@ -121,20 +122,34 @@ wheels() {
   done
 }
 
+rates() {
+  local each hz
+  for hz in 5 10 20 30; do
+    for each in "${right[@]}"; do
+      # shellcheck disable=SC2086
+      set -- $each
+      printf '%s frames/s,right,%s,%s,,%s,,%s,,,,\n' $hz "$1" "$2" "$3" $hz
+      printf '%s frames/s,identity,%s,%s,,,,%s,,,,\n' $hz "$1" "$1" $hz
+    done
+  done
+}
+
 echo 'set,kind,teach,replay,disturb,truth,steering,rate,visits,teach_odometry,replay_odometry,odometry_noise'
 case $what in
   plain) plain ;;
   disturbed) disturbed ;;
   refreshed) refreshed ;;
   wheels) wheels ;;
+  rates) rates ;;
   all)
     plain
     disturbed
     refreshed
     wheels
+    rates
     ;;
   *)
-    echo "recordings.sh: expected plain, disturbed, refreshed, wheels or all, not '$what'" >&2
+    echo "recordings.sh: expected plain, disturbed, refreshed, wheels, rates or all, not '$what'" >&2
     exit 2
     ;;
 esac

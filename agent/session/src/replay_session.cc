@@ -206,7 +206,7 @@ ReplayStep ReplaySession::State::Follow(const Seen& seen) {
     steers_by_views = true;
     ReplayStep views = by_views.Step(seen.looked_s);
     eyes.tracker().Detect();  // whose flow tells whether the robot moves
-    standing = {views.state, views.trust, views.reason};
+    standing = StandingOf(views);
     return views;
   }
   ReplayStep features = by_features->Report(by_features->Step(seen, of_features), of_features);
@@ -219,14 +219,14 @@ ReplayStep ReplaySession::State::Follow(const Seen& seen) {
   if (views.state == ReplayState::kFollowing && CarriedByOdometry(features)) {
     features.state = views.state;
     features.trust = Trust::kUnsure;
-    standing = {features.state, features.trust, features.reason};
+    standing = StandingOf(features);
     return features;
   }
   steers_by_views = true;
   views.sight = std::move(features.sight);
   views.found_share = features.found_share;
   views.hand_overs = features.hand_overs;
-  standing = {views.state, views.trust, views.reason};
+  standing = StandingOf(views);
   return views;
 }
 

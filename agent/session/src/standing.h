@@ -4,6 +4,7 @@
 
 #include "agent/session/confidence.h"
 #include "agent/session/replay_state.h"
+#include "agent/session/replay_step.h"
 
 namespace trailcast::agent {
 
@@ -13,5 +14,9 @@ struct Standing {
   Trust trust = Trust::kSeeking;
   std::string reason;  // one line for people
 };
+
+[[nodiscard]] inline Standing StandingOf(const ReplayStep& step) {
+  return {step.state, step.trust, step.reason};
+}
 
 }  // namespace trailcast::agent
