@@ -15,6 +15,8 @@ namespace trailcast::console {
 
 // {"reason": ".."}, or nothing at all.
 [[nodiscard]] Result<std::string> ReadReason(const std::string& body);
+// The same of a body that may be anything: made one line, and empty where there is none.
+[[nodiscard]] std::string ReasonIfAny(const std::string& body);
 
 struct SendBody {
   std::string orders;

@@ -25,8 +25,11 @@ struct Door {
   std::string guarded = "/api/";     // paths below it are for its own pages only
 };
 
-// Why it is not let in: 421 for another host's, 403 from another page, 415 for a POST that is
-// said to be neither JSON nor a file, which other pages could send without being asked.
+// Why it is not let in: 421 for another host's, 403 from another page.
 [[nodiscard]] std::optional<Refusal> Judge(const httplib::Request& request, const Door& door);
+
+// 415 for a POST whose body is said to be neither JSON nor a file, which other pages could send
+// without being asked. What brings no body needs no type.
+[[nodiscard]] std::optional<Refusal> JudgeType(const httplib::Request& request);
 
 }  // namespace trailcast::http

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <regex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,6 +20,9 @@ namespace trailcast::http {
 
 class Guests;
 class Stream;
+
+// Neither of a known length nor in chunks: then there is none (RFC 9112, section 6.3).
+[[nodiscard]] bool BringsNoBody(const httplib::Request& request);
 
 struct Limits {
   std::size_t threads = 2;
@@ -61,6 +65,13 @@ class Server final : public httplib::Server {
 
   void Allow(Allowance allowance);
 
+  // A POST that is obeyed whatever body it comes with. In the request that `handler` is given is
+  // the body if all of it came within kHurry and Limits::body_bytes, and none where it is too long,
+  // too late, cut off, or multipart.
+  static constexpr std::chrono::milliseconds kHurry{500};
+  void PostWithAnyBody(const std::string& pattern, Handler handler);
+  [[nodiscard]] bool TakesAnyBody(const httplib::Request& request) const;
+
   // From now on to TLS alone.
   void Speak(Tls tls) { tls_ = std::move(tls); }
 
@@ -76,11 +87,14 @@ class Server final : public httplib::Server {
   void Answer(int socket, const std::function<void()>& on_request);
   void Answer(Stream& stream, const std::function<void()>& on_request);
   [[nodiscard]] const Allowance* AllowanceOf(const httplib::Request& request) const;
+  [[nodiscard]] std::string BodyOf(const httplib::Request& request,
+                                   const httplib::ContentReader& read) const;
   [[nodiscard]] std::optional<Refusal> JudgeBody(const httplib::Request& request) const;
 
   const Limits limits_;
   const Complain complain_;
   std::vector<Allowance> allowances_;
+  std::vector<std::regex> any_body_;  // paths
   Judge judge_;
   Refuse refuse_;
   std::optional<Tls> tls_;

@@ -56,6 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     command.reason = *reason;
     Require(exchange::CheckBounds(command).has_value(), "a command with it may be published");
   }
+  Require(IsPlainText(console::ReasonIfAny(body), exchange::kMaxLineBytes), "so is a stop's");
   if (const auto send = console::ReadSend(body)) {
     mission::Mission mission;
     mission.agent = AgentId("robot1");

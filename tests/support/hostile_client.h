@@ -57,6 +57,15 @@ class RawConnection {
     const ssize_t got = recv(socket_, bytes.data(), bytes.size(), 0);
     return got > 0 ? std::string(bytes.data(), static_cast<std::size_t>(got)) : "";
   }
+  // Until the other side hangs up.
+  [[nodiscard]] std::string ReceiveAll() const {
+    std::string all;
+    while (true) {
+      const std::string more = Receive();
+      if (more.empty()) return all;
+      all += more;
+    }
+  }
 
  private:
   int socket_;

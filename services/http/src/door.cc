@@ -56,12 +56,16 @@ std::optional<Refusal> Judge(const httplib::Request& request, const Door& door) 
   if (is_guarded && !(own_origin && own_site)) {
     return Refusal{403, "this comes from another page than this program's own"};
   }
-  if (request.method == "POST" && !IsOfOurs(request.get_header_value("Content-Type"))) {
-    return Refusal{415,
-                   "a POST needs 'Content-Type: application/json', or of a file image/jpeg, "
-                   "image/png or application/octet-stream"};
-  }
   return std::nullopt;
+}
+
+std::optional<Refusal> JudgeType(const httplib::Request& request) {
+  if (request.method != "POST") return std::nullopt;
+  if (BringsNoBody(request) && !request.has_header("Content-Type")) return std::nullopt;
+  if (IsOfOurs(request.get_header_value("Content-Type"))) return std::nullopt;
+  return Refusal{415,
+                 "a POST needs 'Content-Type: application/json', or of a file image/jpeg, "
+                 "image/png or application/octet-stream"};
 }
 
 }  // namespace trailcast::http

@@ -14,6 +14,7 @@
 #include "services/base/guarded.h"
 #include "services/base/number.h"
 #include "services/http/address.h"
+#include "services/http/door.h"
 #include "services/http/src/guests.h"
 #include "services/http/src/stream.h"
 #include "services/http/src/tls_stream.h"
@@ -37,6 +38,12 @@ void RefuseInText(const Refusal& refusal, httplib::Response& response) {
 }
 
 }  // namespace
+
+bool BringsNoBody(const httplib::Request& request) {
+  return !request.has_header("Transfer-Encoding") &&
+         (!request.has_header("Content-Length") ||
+          request.get_header_value("Content-Length") == "0");
+}
 
 Server::Server(const Limits& limits, Complain complain)
     : limits_(limits), complain_(std::move(complain)), refuse_(RefuseInText) {
@@ -91,7 +98,43 @@ const Allowance* Server::AllowanceOf(const httplib::Request& request) const {
   return found == allowances_.end() ? nullptr : &*found;
 }
 
+void Server::PostWithAnyBody(const std::string& pattern, Handler handler) {
+  any_body_.emplace_back(pattern);
+  Post(pattern, [this, handler = std::move(handler)](const httplib::Request& request,
+                                                     httplib::Response& response,
+                                                     const httplib::ContentReader& read) {
+    httplib::Request whole = request;
+    whole.body = BodyOf(request, read);
+    handler(whole, response);
+  });
+}
+
+bool Server::TakesAnyBody(const httplib::Request& request) const {
+  return request.method == "POST" &&
+         std::any_of(any_body_.begin(), any_body_.end(), [&](const std::regex& pattern) {
+           return std::regex_match(request.path, pattern);
+         });
+}
+
+std::string Server::BodyOf(const httplib::Request& request,
+                           const httplib::ContentReader& read) const {
+  const auto length = ParseNumber<std::uint64_t>(request.get_header_value("Content-Length"));
+  const bool is_bounded = length && *length <= limits_.body_bytes;
+  const bool in_chunks = Lower(request.get_header_value("Transfer-Encoding")) == "chunked";
+  if (BringsNoBody(request) || request.is_multipart_form_data() || !(is_bounded || in_chunks)) {
+    return {};
+  }
+  std::string body;
+  const bool is_whole = read([&](const char* bytes, std::size_t size) {
+    if (size > limits_.body_bytes - body.size()) return false;
+    body.append(bytes, size);
+    return true;
+  });
+  return is_whole ? body : std::string();
+}
+
 std::optional<Refusal> Server::JudgeBody(const httplib::Request& request) const {
+  if (TakesAnyBody(request)) return std::nullopt;
   // cpp-httplib reads such a body without a bound, and unpacks what is packed into any size.
   if (request.has_header("Transfer-Encoding") || request.has_header("Content-Encoding")) {
     return Refusal{411,
@@ -164,13 +207,18 @@ void Server::Answer(int socket, const std::function<void()>& on_request) {
 // `on_request`: called when it is read, but for its body.
 void Server::Answer(Stream& stream, const std::function<void()>& on_request) {
   bool closed = false;
-  (void)process_request(stream, /*close_connection=*/true, closed,
-                        [&](const httplib::Request& request) {
-                          on_request();
-                          const Allowance* allowance = AllowanceOf(request);
-                          if (allowance == nullptr || JudgeBody(request)) return;
-                          stream.Allow(allowance->body_bytes, allowance->patience);
-                        });
+  (void)process_request(stream, /*close_connection=*/true, closed, [&](httplib::Request& request) {
+    on_request();
+    if (TakesAnyBody(request)) return stream.Hurry(kHurry);
+    const Allowance* allowance = AllowanceOf(request);
+    // Where no length is told, cpp-httplib reads until the client hangs up,
+    // which it does not while it waits for its answer.
+    if (allowance == nullptr && BringsNoBody(request)) {
+      request.headers.emplace("Content-Length", "0");
+    }
+    if (allowance == nullptr || JudgeBody(request)) return;
+    stream.Allow(allowance->body_bytes, allowance->patience);
+  });
 }
 
 }  // namespace trailcast::http

@@ -29,6 +29,10 @@ void Stream::Allow(std::size_t bytes, milliseconds patience) {
   longest_pause_ = kLongestPause;
 }
 
+void Stream::Hurry(milliseconds patience) {
+  read_until_ = std::min(read_until_, Clock::now() + patience);
+}
+
 bool Stream::is_readable() const { return WaitToRead(POLLIN); }
 
 bool Stream::is_writable() const {

@@ -26,6 +26,8 @@ class Stream : public httplib::Stream {
 
   // So many bytes more, and so long from now on, but no pause of kLongestPause.
   void Allow(std::size_t bytes, std::chrono::milliseconds patience);
+  // Nothing is read later than so long from now.
+  void Hurry(std::chrono::milliseconds patience);
 
   [[nodiscard]] bool is_readable() const override;
   // Nor once the client has hung up.

@@ -24,6 +24,17 @@ TEST(ConsoleBodies, AReasonMayBeAbsent) {
   EXPECT_FALSE(ReadReason(std::string(60'000, '['))) << "nested as deep as one likes";
 }
 
+TEST(ConsoleBodies, AStopsReasonIsWhatCanBeReadOfIt) {
+  EXPECT_EQ(ReasonIfAny(R"({"reason": "rain", "by": [1]})"), "rain");
+  EXPECT_EQ(ReasonIfAny(R"({"reason": "a\nb"})"), "a b");
+  EXPECT_EQ(ReasonIfAny(R"({"reason": ")" + std::string(600, 'x') + "\"}").size(), 512U);
+  for (const std::string& none :
+       {std::string(), std::string("x"), std::string("[]"), std::string(R"({"reason": 1})"),
+        std::string(R"({"reason": ")"), std::string("\xff\xfe"), std::string(60'000, '[')}) {
+    EXPECT_EQ(ReasonIfAny(none), "") << none.substr(0, 20);
+  }
+}
+
 TEST(ConsoleBodies, AMissionNeedsOrdersThatAreUnderstood) {
   const auto send =
       ReadSend(R"({"orders": "follow hall", "id": "trip", "valid_s": 0, "goes_on": true})");

@@ -5,7 +5,9 @@
 
 #include <atomic>
 #include <fstream>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "services/exchange/in_process_exchange.h"
@@ -72,8 +74,8 @@ TEST_F(WebTest, RefusesOtherHostsAndOtherPages) {
       Client().Post("/api/all/stop", {{"Origin", "http://evil.example"}}, "{}", "application/json");
   EXPECT_EQ(elsewhere->status, 403);
   EXPECT_THAT(json::parse(elsewhere->body)["error"].get<std::string>(), HasSubstr("another page"));
-  EXPECT_EQ(Client().Post("/api/all/stop", "{}", "text/plain")->status, 415);
-  EXPECT_EQ(Client().Post("/api/robots/robot1/stop", "{", "application/json")->status, 400);
+  EXPECT_EQ(Client().Post("/api/robots/robot1/resume", "{}", "text/plain")->status, 415);
+  EXPECT_EQ(Client().Post("/api/robots/robot1/resume", "{", "application/json")->status, 400);
   EXPECT_EQ(Client().Post("/api/robots/a%20b/stop", "{}", "application/json")->status, 404);
   EXPECT_EQ(Client().Post("/api/robots/robot1/stop", "{}", "application/json")->status, 504);
   EXPECT_EQ(Client().Get("/api/missions?limit=0")->status, 400);
@@ -84,6 +86,87 @@ TEST_F(WebTest, RefusesOtherHostsAndOtherPages) {
 
 TEST_F(WebTest, ARobotThatTeachesIsDrivenByOneAtATime) {
   const auto robot = bus_.Open(program::WithAgents(exchange::TeachingTopics()));
+// In whatever form a client may send it.
+TEST_F(WebTest, WhatMakesARobotStandIsObeyedWhateverComesWithIt) {
+  const auto robot = bus_.Open(program::WithAgents(exchange::OnDutyTopics()));
+  exchange::AgentStatus status;
+  status.agent = AgentId("robot1");
+  status.role = exchange::AgentRole::kFollower;
+  ASSERT_TRUE(robot->Publish(status));
+  test::Await([&] { return !json::parse(Client().Get("/api/state")->body)["robots"].empty(); },
+              "the robot");
+  std::atomic<bool> ends = false;
+  std::mutex mutex;
+  std::vector<exchange::NowCommand> heard;
+  std::set<std::uint64_t> numbers;
+  std::thread answering([&] {
+    while (!ends) {
+      for (const exchange::Message& message : robot->Take(milliseconds(10))) {
+        const auto* command = std::get_if<exchange::NowCommand>(&message);
+        if (command == nullptr) continue;
+        {
+          const std::scoped_lock lock(mutex);
+          if (numbers.insert(command->number).second) heard.push_back(*command);
+        }
+        (void)robot->Publish(exchange::NowAnswer{
+            .agent = AgentId("robot1"), .client = command->client, .number = command->number});
+      }
+    }
+  });
+  const std::string json_type = "Content-Type: application/json\r\n";
+  const std::vector<std::pair<std::string, std::string>> forms{
+      {"", ""},
+      {json_type, ""},
+      {json_type + "Content-Length: 0\r\n", ""},
+      {"Content-Length: 17\r\n", R"({"reason":"rain"})"},
+      {"Content-Type: application/x-www-form-urlencoded\r\nContent-Length: 17\r\n",
+       R"({"reason":"rain"})"},
+      {json_type + "Transfer-Encoding: chunked\r\n", "11\r\n{\"reason\":\"rain\"}\r\n0\r\n\r\n"},
+      {json_type + "Content-Length: 24\r\n", R"({"reason":"rain","by":1})"},
+      {json_type + "Content-Length: 1\r\n", "{"},
+      {json_type + "Content-Length: 100000000\r\n", "{"},
+      {"Content-Type: multipart/form-data\r\nContent-Length: 4\r\n", "rain"}};
+  for (const char* order : {"all/stop", "robots/robot1/stop", "robots/robot1/pause",
+                            "robots/robot1/cancel", "robots/robot1/end"}) {
+    for (const auto& [head, body] : forms) {
+      {
+        const std::scoped_lock lock(mutex);
+        heard.clear();
+      }
+      const test::RawConnection client(web_->port());
+      client.Send(
+          fmt::format("POST /api/{} HTTP/1.1\r\nHost: desk.site\r\n{}\r\n{}", order, head, body));
+      // On a busy machine the answer of a robot that has heard may be late.
+      EXPECT_THAT(client.Receive(), testing::AnyOf(HasSubstr(" 200 "), HasSubstr(" 504 ")))
+          << order << " " << head << body;
+      const std::scoped_lock lock(mutex);
+      EXPECT_EQ(heard.size(), 1U) << order << " " << head << body;
+      if (heard.empty()) continue;
+      EXPECT_THAT(std::string("/") + order,
+                  testing::EndsWith(fmt::format("/{}", mission::ToString(heard[0].order))));
+      EXPECT_EQ(heard[0].reason, body.find("rain\"") == std::string::npos ? "" : "rain");
+    }
+  }
+  const auto status_of = [&](const char* order, const std::string& head, const char* body) {
+    const test::RawConnection client(web_->port());
+    client.Send(fmt::format("POST /api/robots/robot1/{} HTTP/1.1\r\nHost: desk.site\r\n{}\r\n{}",
+                            order, head, body));
+    return client.Receive().substr(9, 3);
+  };
+  for (const char* order : {"resume", "release"}) {
+    for (const std::string& head : {std::string(), json_type}) {
+      EXPECT_THAT(status_of(order, head, ""), testing::AnyOf("200", "504"))
+          << "a reason is optional";
+    }
+    EXPECT_EQ(status_of(order, "Content-Length: 2\r\n", "{}"), "415");
+    EXPECT_EQ(status_of(order, json_type + "Content-Length: 1\r\n", "{"), "400")
+        << "it may drive after that";
+  }
+  EXPECT_EQ(status_of("stop", "Origin: http://evil.example\r\n", ""), "403");
+  ends = true;
+  answering.join();
+}
+
   exchange::AgentStatus status;
   status.agent = AgentId("robot1");
   status.role = exchange::AgentRole::kFollower;

@@ -21,7 +21,10 @@ int StatusOf(const httplib::Request& request, const std::set<std::string>& names
 }
 int StatusOfPost(httplib::Headers headers) {
   headers.emplace("Host", "localhost:8080");
-  return StatusOf(Asked("POST", "/api/all/stop", headers));
+  const auto request = Asked("POST", "/api/all/stop", headers);
+  if (const int status = StatusOf(request); status != 0) return status;
+  const auto refusal = JudgeType(request);
+  return refusal ? refusal->status : 0;
 }
 
 TEST(Door, LetsInWhatIsMeantForThisHost) {
@@ -54,6 +57,10 @@ TEST(Door, APostIsJsonOrAFileAndFromNoOtherPage) {
                            "application/jsonp", "text/plain; application/json"}) {
     EXPECT_EQ(StatusOfPost({{"Content-Type", type}}), 415) << type;
   }
+  EXPECT_EQ(StatusOfPost({}), 0) << "nothing needs no type";
+  EXPECT_EQ(StatusOfPost({{"Content-Length", "0"}}), 0);
+  EXPECT_EQ(StatusOfPost({{"Content-Length", "1"}}), 415);
+  EXPECT_EQ(StatusOfPost({{"Transfer-Encoding", "chunked"}}), 415);
   const auto from = [](const char* origin) {
     return StatusOfPost({{"Content-Type", "application/json"}, {"Origin", origin}});
   };

@@ -169,6 +169,81 @@ TEST_F(HttpServerTest, ABodyOfUnknownLengthIsRefused) {
   EXPECT_THAT(client.Receive(), HasSubstr(" 411 "));
 }
 
+// As 'curl -X POST' and 'curl -X DELETE' send it, and wait for the answer.
+TEST_F(HttpServerTest, WhatSaysNothingOfABodyHasNone) {
+  server_.Delete("/hello", [](const httplib::Request&, httplib::Response& response) {
+    response.set_content("gone", "text/plain");
+  });
+  for (const auto& [request, answer] : std::vector<std::pair<std::string, std::string>>{
+           {"POST /length", "\r\n\r\n0"}, {"DELETE /hello", "\r\n\r\ngone"}}) {
+    const RawConnection client(server_.port());
+    client.Send(request + " HTTP/1.1\r\nHost: x\r\n\r\n");
+    const std::string got = client.ReceiveAll();
+    EXPECT_THAT(got, HasSubstr(" 200 ")) << request;
+    EXPECT_THAT(got, testing::EndsWith(answer)) << request;
+  }
+}
+
+class AnyBodyTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    server_.PostWithAnyBody(
+        "/stop/([a-z]+)", [](const httplib::Request& request, httplib::Response& response) {
+          response.set_content(request.matches[1].str() + ":" + request.body + ".", "text/plain");
+        });
+    ASSERT_TRUE(server_.Listen("127.0.0.1", 0));
+  }
+  [[nodiscard]] std::string Answer(const std::string& head, const std::string& body = "") {
+    const RawConnection client(server_.port());
+    client.Send("POST /stop/robot HTTP/1.1\r\nHost: x\r\n" + head + "\r\n" + body);
+    return client.ReceiveAll();
+  }
+
+  Server server_{{.threads = 2, .body_bytes = 100}, Complain};
+};
+
+TEST_F(AnyBodyTest, ItIsObeyedAndGivenTheBodyIfThatCame) {
+  using testing::EndsWith;
+  const std::string chunked = "Transfer-Encoding: chunked\r\n";
+  const std::string multipart = "Content-Type: multipart/form-data; boundary=x\r\n";
+  EXPECT_THAT(Answer(""), EndsWith("robot:."));
+  EXPECT_THAT(Answer("Content-Length: 0\r\n"), EndsWith("robot:."));
+  EXPECT_THAT(Answer("Content-Length: 3\r\n", "why"), EndsWith("robot:why."));
+  EXPECT_THAT(
+      Answer("Content-Type: application/x-www-form-urlencoded\r\nContent-Length: 3\r\n", "why"),
+      EndsWith("robot:why."));
+  EXPECT_THAT(Answer(chunked, "3\r\nwhy\r\n0\r\n\r\n"), EndsWith("robot:why."));
+  EXPECT_THAT(Answer(chunked, "no number\r\n"), EndsWith("robot:."));
+  EXPECT_THAT(Answer(multipart + "Content-Length: 3\r\n", "why"), EndsWith("robot:."));
+  EXPECT_THAT(Answer("Content-Type: multipart/form-data\r\nContent-Length: 3\r\n", "why"),
+              EndsWith("robot:."));
+  EXPECT_THAT(Answer("Content-Encoding: gzip\r\nContent-Length: 3\r\n", "why"),
+              EndsWith("robot:."));
+  EXPECT_THAT(Answer("Content-Encoding: nonsense\r\nContent-Length: 3\r\n", "why"),
+              EndsWith("robot:why."));
+  EXPECT_THAT(Answer("Transfer-Encoding: gzip\r\n", "why"), EndsWith("robot:."));
+  EXPECT_THAT(Answer("Content-Length: -3\r\n", "why"), EndsWith("robot:."));
+  EXPECT_THAT(Answer("Content-Length: 1000000000000\r\n"), EndsWith("robot:."));
+}
+
+TEST_F(AnyBodyTest, ItIsObeyedWithoutABodyThatDoesNotCome) {
+  for (const char* head : {"Content-Length: 3\r\n", "Transfer-Encoding: chunked\r\n"}) {
+    const auto began = std::chrono::steady_clock::now();
+    EXPECT_THAT(Answer(head), testing::EndsWith("robot:.")) << head;
+    EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(4))
+        << "as long as others are waited for: " << head;
+  }
+}
+
+TEST_F(AnyBodyTest, ABodyWithoutEndTakesNoMemory) {
+  const std::string chunk = "10000\r\n" + std::string(0x10000, 'x') + "\r\n";
+  EXPECT_LT(RawConnection(server_.port())
+                .SendForEver("POST /stop/robot HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: "
+                             "chunked\r\n\r\n",
+                             chunk),
+            16U << 20U);
+}
+
 // Who connects and says nothing has its thread for a second where others wait.
 TEST_F(HttpServerTest, ManyWhoSayNothingAreDoneWith) {
   std::vector<std::unique_ptr<RawConnection>> silent;

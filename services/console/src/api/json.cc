@@ -91,6 +91,13 @@ Result<std::string> ReadReason(const std::string& body) {
   });
 }
 
+std::string ReasonIfAny(const std::string& body) {
+  const Json json = Json::parse(body, nullptr, /*allow_exceptions=*/false);
+  const bool has_one = json.is_object() && json.contains("reason") && json["reason"].is_string();
+  if (!has_one) return {};
+  return PlainText(json["reason"].get_ref<const std::string&>(), exchange::kMaxLineBytes);
+}
+
 Result<SendBody> ReadSend(const std::string& body) {
   const auto json = ReadObject(body, {"orders", "id", "valid_s", "goes_on"});
   if (!json) return tl::unexpected(json.error());

@@ -44,6 +44,11 @@ constexpr std::size_t kMostBody = 64U << 10U;
 constexpr std::array kOrders{NowOrder::kPause, NowOrder::kResume,  NowOrder::kCancel,
                              NowOrder::kStop,  NowOrder::kRelease, NowOrder::kEnd};
 
+// What a robot stands after is obeyed whatever it comes with; what it may drive after is not.
+bool MakesStand(NowOrder order) {
+  return order != NowOrder::kResume && order != NowOrder::kRelease;
+}
+
 int StatusOf(const fleet::RobotsWord& word) {
   if (!word.answered) return 504;
   return word.refused ? 409 : 200;
@@ -95,6 +100,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   server_.JudgeBy(
       [this](const Request& request) {
         auto refusal = http::Judge(request, door_);
+        if (!refusal && !server_.TakesAnyBody(request)) refusal = http::JudgeType(request);
         return refusal ? refusal : access_.Judge(request);
       },
       [](const http::Refusal& refusal, Response& response) {
@@ -207,19 +213,26 @@ void Web::Stream(const Request& request, Response& response) {
 
 void Web::ServeOrders() {
   for (const NowOrder order : kOrders) {
-    server_.Post(fmt::format("/api/robots/([A-Za-z0-9_.-]{{1,64}})/{}", mission::ToString(order)),
-                 [this, order](const Request& request, Response& response) {
-                   Tell(order, {NowWhom::kRobot, request.matches[1]}, request, response);
-                 });
+    const std::string path =
+        fmt::format("/api/robots/([A-Za-z0-9_.-]{{1,64}})/{}", mission::ToString(order));
+    auto tell = [this, order](const Request& request, Response& response) {
+      Tell(order, {NowWhom::kRobot, request.matches[1]}, request, response);
+    };
+    if (MakesStand(order)) {
+      server_.PostWithAnyBody(path, std::move(tell));
+    } else {
+      server_.Post(path, std::move(tell));
+    }
   }
-  server_.Post("/api/all/stop", [this](const Request& request, Response& response) {
+  server_.PostWithAnyBody("/api/all/stop", [this](const Request& request, Response& response) {
     Tell(NowOrder::kStop, {NowWhom::kAll, ""}, request, response);
   });
 }
 
 void Web::Tell(NowOrder order, const fleet::NowTarget& target, const Request& request,
                Response& response) {
-  const auto reason = ReadReason(request.body);
+  const auto reason =
+      MakesStand(order) ? Result<std::string>(ReasonIfAny(request.body)) : ReadReason(request.body);
   if (!reason) return Refuse(response, 400, reason.error().message);
   const auto words = desk_.Tell(order, target, ReasonOf(access_.WhoIs(request), *reason));
   if (!words) return Refuse(response, 503, words.error().message);
