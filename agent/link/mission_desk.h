@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,8 +18,9 @@
 namespace trailcast::agent {
 
 // What this robot is sent to do: takes a mission at a time, once however often it comes, and says
-// what became of it until a server has that. All of it is in a file, so that neither is forgotten
-// when the agent ends in whatever way. No clock of its own.
+// what became of it until a server has that. A server that takes a mission to be as it is not is
+// answered; what this robot knows nothing of has failed. All of it is in a file, so that neither is
+// forgotten when the agent ends in whatever way. No clock of its own.
 class MissionDesk {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -74,7 +76,7 @@ class MissionDesk {
 
   void Take(const mission::Mission& mission);
   void Amend(Kept& kept, const mission::Mission& mission);
-  void Confirm(const mission::Report& report);
+  void Compare(const mission::Report& report);
   [[nodiscard]] Kept* Find(const std::string& id);
   [[nodiscard]] Kept& CurrentKept();
   void Answer(Kept& kept, mission::State state, const std::string& detail,
@@ -88,6 +90,8 @@ class MissionDesk {
   std::deque<Kept> kept_;  // the newest last
   std::optional<Current> current_;
   bool amended_ = false;
+  // Missions that servers take to be under way here, and of which nothing is known: their end.
+  std::map<std::string, mission::Report> unknown_;
   Time again_at_{};
   std::vector<std::string> news_;
 };

@@ -45,6 +45,16 @@ bool AreSame(const std::string& orders, const std::string& others) {
   return going && other && going->to == other->to && (going->way > 1 || other->way > 1);
 }
 
+// That a robot has said, and that it says more after.
+std::uint32_t UnendedStates() {
+  std::uint32_t states = 0;
+  for (std::uint8_t i = 0; i < mission::kStates; ++i) {
+    const auto state = static_cast<mission::State>(i);
+    if (state != mission::State::kSent && !mission::HasEnded(state)) states |= 1U << i;
+  }
+  return states;
+}
+
 // A server's own word.
 mission::Report OwnReport(const mission::Mission& mission, mission::State state,
                           const std::string& why) {
@@ -79,22 +89,19 @@ Result<std::unique_ptr<MissionBoard>> MissionBoard::Open(
   auto unanswered = board->store_->Unanswered();
   if (!unanswered) return tl::unexpected(unanswered.error());
   for (mission::Record& record : *unanswered) {
-    board->unanswered_[record.mission.agent].push_back(std::move(record));
+    board->unanswered_[record.mission.agent].emplace_back(std::move(record));
   }
   if (auto loaded = board->LoadCurrent(); !loaded) return tl::unexpected(loaded.error());
   return board;
 }
 
 Result<void> MissionBoard::LoadCurrent() {
-  mission::Query query;
-  for (std::uint8_t i = 0; i < mission::kStates; ++i) {
-    const auto state = static_cast<mission::State>(i);
-    if (state != mission::State::kSent && !mission::HasEnded(state)) query.states |= 1U << i;
-  }
+  mission::Query query{.states = UnendedStates()};
   while (current_.size() < kMostAgents) {
     auto page = store_->Find(query);
     if (!page) return tl::unexpected(page.error());
     for (mission::Record& record : page->missions) {
+      unended_.Touch(record.mission.agent)[record.mission.id] = record.last;
       if (current_.Find(record.mission.agent) != nullptr) continue;
       current_.Touch(record.mission.agent).record = std::move(record);
     }
@@ -166,13 +173,13 @@ void MissionBoard::Keep(const mission::Mission& mission, mission::Record stored)
     return;
   }
   Say(stored.last);
-  std::deque<mission::Record>& pending = unanswered_[mission.agent];
+  std::deque<Waiting>& pending = unanswered_[mission.agent];
   const bool is_known = std::any_of(pending.begin(), pending.end(), [&](const auto& record) {
     return record.mission.id == mission.id;
   });
   if (!is_known && stored.last.state == mission::State::kSent) {
     notes_.push_back({fmt::format("'{}' sends {}", mission.client.value(), Describe(mission))});
-    pending.push_back(std::move(stored));
+    pending.emplace_back(std::move(stored));
     if (Heard* heard = heard_.Find(mission.agent)) heard->tell_at = {};
   }
   if (pending.empty()) unanswered_.erase(mission.agent);
@@ -202,6 +209,12 @@ void MissionBoard::On(const mission::Report& report, std::int64_t now_unix_ms) {
 
 void MissionBoard::NoteCurrent(const mission::Report& report) {
   Current* known = current_.Find(report.agent);
+  if (!mission::HasEnded(report.state)) {
+    unended_.Touch(report.agent)[report.mission] = report;
+  } else if (auto* unended = unended_.Find(report.agent)) {
+    unended->erase(report.mission);
+    if (unended->empty()) unended_.Erase(report.agent);
+  }
   const bool is_known = known != nullptr && known->record.mission.id == report.mission;
   if (mission::HasEnded(report.state)) {
     if (is_known) current_.Erase(report.agent);
@@ -279,7 +292,7 @@ void MissionBoard::On(const exchange::NowCommand& command, std::int64_t now_unix
                   WithoutProcess(command.client.value()), exchange::ToString(command.order));
   Drop(
       mission::State::kCancelled,
-      [&](const mission::Record& record) {
+      [&](const Waiting& record) {
         return IsMeant(command, record.mission) ? std::optional(why) : std::nullopt;
       },
       now_unix_ms);
@@ -294,7 +307,7 @@ void MissionBoard::On(const exchange::NowAnswer& answer) {
 void MissionBoard::Drop(mission::State state, const Why& why, std::int64_t now_unix_ms) {
   std::vector<mission::Report> reports;
   for (const auto& [agent, missions] : unanswered_) {
-    for (const mission::Record& record : missions) {
+    for (const Waiting& record : missions) {
       if (const auto reason = why(record)) {
         reports.push_back(OwnReport(record.mission, state, *reason));
       }
@@ -306,7 +319,7 @@ void MissionBoard::Drop(mission::State state, const Why& why, std::int64_t now_u
     return;
   }
   for (auto& [agent, missions] : unanswered_) {
-    std::erase_if(missions, [&](const mission::Record& record) {
+    std::erase_if(missions, [&](const Waiting& record) {
       const auto reason = why(record);
       if (reason) {
         notes_.push_back({fmt::format("{}: {}: {}", Describe(record.mission),
@@ -328,7 +341,11 @@ void MissionBoard::On(const exchange::AgentStatus& status, Time now) {
   }
   Heard& heard = heard_.Touch(status.agent);
   if (heard.instance == status.instance) return;
-  heard = {.instance = status.instance, .tell_at = now, .pause = kSoon};
+  heard = {.instance = status.instance,
+           .tell_at = now,
+           .pause = kSoon,
+           .agree_at = now,
+           .agree_pause = kSoon};
 }
 
 void MissionBoard::On(const exchange::AgentGone& gone) {
@@ -336,13 +353,30 @@ void MissionBoard::On(const exchange::AgentGone& gone) {
   if (heard != nullptr && heard->instance == gone.instance) heard_.Erase(gone.agent);
 }
 
-void MissionBoard::Expire(std::int64_t now_unix_ms) {
+void MissionBoard::Agree(Time now) {
+  for (auto& [agent, heard] : heard_) {
+    const auto* unended = now < heard.agree_at ? nullptr : unended_.Find(agent);
+    if (unended == nullptr) continue;
+    heard.agree_at = now + heard.agree_pause;
+    heard.agree_pause = std::min(2 * heard.agree_pause, kLate);
+    for (const auto& [id, report] : *unended) Say(report);
+  }
+}
+
+void MissionBoard::Expire(Time now, std::int64_t now_unix_ms) {
+  for (auto& [agent, missions] : unanswered_) {
+    for (Waiting& record : missions) {
+      if (record.expires) continue;
+      const milliseconds valid = std::chrono::seconds(ValidFor_s(record.mission));
+      const milliseconds waited(now_unix_ms - record.sent_unix_ms);
+      record.expires = now + valid - std::clamp(waited, milliseconds(0), valid);
+    }
+  }
   Drop(
       mission::State::kExpired,
-      [&](const mission::Record& record) -> std::optional<std::string> {
-        const std::uint32_t valid_s = ValidFor_s(record.mission);
-        if (now_unix_ms - record.sent_unix_ms < std::int64_t{valid_s} * 1000) return std::nullopt;
-        return fmt::format("the robot did not answer within {} s", valid_s);
+      [&](const Waiting& record) -> std::optional<std::string> {
+        if (now < *record.expires) return std::nullopt;
+        return fmt::format("the robot did not answer within {} s", ValidFor_s(record.mission));
       },
       now_unix_ms);
 }
@@ -350,11 +384,12 @@ void MissionBoard::Expire(std::int64_t now_unix_ms) {
 std::vector<exchange::Message> MissionBoard::Tick(Time now, std::int64_t now_unix_ms) {
   if (now >= expire_at_) {
     expire_at_ = now + kExpireEvery;
-    Expire(now_unix_ms);
+    Expire(now, now_unix_ms);
   }
   for (const auto& [agent, missions] : unanswered_) {
     Heard* heard = heard_.Find(agent);
     if (heard == nullptr || now < heard->tell_at) continue;
+  Agree(now);
     heard->tell_at = now + heard->pause;
     heard->pause = std::min(2 * heard->pause, kLate);
     mission::Mission copy = missions.front().mission;

@@ -73,16 +73,24 @@ class MissionBoard {
   void NoteCurrent(const mission::Report& report);
   void Keep(const mission::Mission& mission, mission::Record stored);
   // Drops with one commit the missions that no robot has answered and that `why` has a reason for.
-  using Why = std::function<std::optional<std::string>(const mission::Record&)>;
+  // With robots that are met, whether they still do what is taken here to be under way.
+  void Agree(Time now);
+  // `expires`: by the time that passes here, however the server's clock is set meanwhile; nothing:
+  // it has not been looked at yet.
+  struct Waiting : mission::Record {
+    explicit Waiting(mission::Record record) : mission::Record(std::move(record)) {}
+    std::optional<Time> expires{};
+  };
+  using Why = std::function<std::optional<std::string>(const Waiting&)>;
   void Drop(mission::State state, const Why& why, std::int64_t now_unix_ms);
-  void Expire(std::int64_t now_unix_ms);
+  void Expire(Time now, std::int64_t now_unix_ms);
   void Say(mission::Report report);
   void Warn(const Error& error) { notes_.push_back({error.message, true}); }
 
   AgentId server_;
   std::unique_ptr<store::MissionStore> store_;
   // Of each robot the oldest first: it is told of that one.
-  std::map<AgentId, std::deque<mission::Record>> unanswered_;
+  std::map<AgentId, std::deque<Waiting>> unanswered_;
   struct Current {
     mission::Record record{};
     Time tell_at{};  // if it goes another way than at first
@@ -95,10 +103,15 @@ class MissionBoard {
   };
   NewestMap<AgentId, Heard> heard_{kMostAgents};
   Time expire_at_{};
+  // What each robot has said last of its missions that have not ended, by their ids. It may have
+  // lost them since, with its disk.
+  NewestMap<AgentId, std::map<std::string, mission::Report>> unended_{kMostAgents};
   // Commands and answers that are stored, since they are said again and again.
   using NowKey = std::pair<AgentId, std::uint64_t>;
   NewestMap<NowKey, bool> commands_{kMostAgents};
   NewestMap<std::pair<AgentId, NowKey>, bool> answers_{kMostAgents};
+    Time agree_at{};
+    std::chrono::milliseconds agree_pause{};  // likewise
   // Missions that cannot be stored are said again, too.
   ToldLately told_{std::chrono::milliseconds(60'000)};
   std::vector<exchange::Message> outgoing_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <variant>
 
 #include "services/base/durable_file.h"
@@ -134,7 +135,7 @@ void MissionDesk::Handle(const exchange::Message& message) {
   if (const auto* mission = std::get_if<mission::Mission>(&message)) {
     if (mission->agent == self_) Take(*mission);
   } else if (const auto* report = std::get_if<mission::Report>(&message)) {
-    if (report->agent == self_ && report->relayed) Confirm(*report);
+    if (report->agent == self_ && report->relayed) Compare(*report);
   }
 }
 
@@ -213,10 +214,31 @@ void MissionDesk::GoOnAt(std::uint32_t task) {
   KeepOrSay();
 }
 
-void MissionDesk::Confirm(const mission::Report& report) {
+void MissionDesk::Compare(const mission::Report& report) {
+  // Whatever is said later has to be newer than that.
+  const bool can_be_newer = report.change < std::numeric_limits<std::uint32_t>::max();
   Kept* kept = Find(report.mission);
-  if (kept == nullptr || kept->confirmed || kept->last.change != report.change) return;
-  kept->confirmed = true;  // saying it once more after a restart does no harm: not on the disk
+  if (kept == nullptr) {
+    const bool is_of_this_robot = report.change > 0 && !mission::HasEnded(report.state);
+    if (!is_of_this_robot || !can_be_newer || unknown_.size() >= kMostKept) return;
+    mission::Report end = report;
+    end.relayed = false;
+    ++end.change;
+    end.state = State::kFailed;
+    end.waits_for = mission::WaitsFor::kNothing;
+    end.detail = "its robot has come back without any record of it, and does it no more";
+    unknown_[report.mission] = std::move(end);
+  } else if (kept->last.change == report.change) {
+    kept->confirmed = true;  // saying it once more after a restart does no harm: not on the disk
+  } else if (report.change > kept->last.change && can_be_newer) {
+    // This robot's disk is an older one, and what it has said since is lost to it.
+    kept->last.change = report.change + 1;
+    kept->confirmed = false;
+    kept->due = true;
+    KeepOrSay();
+  } else if (kept->confirmed) {
+    kept->due = true;  // the server's disk is an older one
+  }
 }
 
 void MissionDesk::Tell(State state, const std::string& detail, mission::WaitsFor waits_for) {
@@ -249,6 +271,11 @@ std::vector<exchange::Message> MissionDesk::Due(Time now, bool server_there) {
   for (Kept& kept : kept_) {
     if (!std::exchange(kept.due, false) && !(again && !kept.confirmed)) continue;
     due.emplace_back(kept.last);
+  }
+  for (auto& [id, end] : std::exchange(unknown_, {})) {
+    news_.push_back(fmt::format("mission {}, of which a server asks: {}: {}", id,
+                                mission::ToString(end.state), end.detail));
+    due.emplace_back(std::move(end));
   }
   return due;
 }

@@ -139,6 +139,53 @@ TEST_F(MissionDeskTest, SaysItUntilAServerHasIt) {
   EXPECT_THAT(Due(true), IsEmpty());
 }
 
+Report SaidOf(const std::string& id, std::uint32_t change, State state) {
+  return {.agent = AgentId("robot1"), .mission = id, .change = change, .state = state};
+}
+
+TEST_F(MissionDeskTest, WhatItsLostDiskHadOfAMissionHasFailed) {
+  ServerSays(SaidOf("m1", 7, State::kUnderWay));
+  for (int times = 0; times < 2; ++times) {
+    const auto ends = Due();
+    ASSERT_THAT(ends, SizeIs(1));
+    EXPECT_EQ(ends[0].mission, "m1");
+    EXPECT_EQ(ends[0].change, 8U) << "newer than what the server has";
+    EXPECT_EQ(ends[0].state, State::kFailed);
+    EXPECT_FALSE(ends[0].relayed);
+    EXPECT_THAT(ends[0].detail, HasSubstr("without any record"));
+    EXPECT_THAT(Due(true), IsEmpty());
+    ServerSays(SaidOf("m1", 7, State::kUnderWay));  // has not heard it
+  }
+  (void)Due();
+  for (const State state : {State::kArrived, State::kFailed, State::kCancelled}) {
+    ServerSays(SaidOf("m1", 8, state));
+  }
+  ServerSays(SaidOf("m2", 0, State::kSent));
+  ServerSays(SaidOf("m3", 0xFFFFFFFF, State::kUnderWay));
+  desk_->Handle(SaidOf("m4", 7, State::kUnderWay));  // no server's word
+  EXPECT_THAT(Due(), IsEmpty());
+  EXPECT_FALSE(desk_->current());
+}
+
+TEST_F(MissionDeskTest, WhoeverHasAnOlderDiskHearsWhatIsSo) {
+  (void)Answer(For("m1"));
+  desk_->Tell(State::kUnderWay);
+  const Report under_way = Due().at(0);
+  ServerSays(under_way);
+  EXPECT_THAT(Due(true), IsEmpty());
+  ServerSays(SaidOf("m1", 1, State::kAccepted));
+  ASSERT_EQ(Due(), std::vector<Report>{under_way}) << "the server's is older";
+
+  ServerSays(SaidOf("m1", 9, State::kArrived));
+  const auto again = Due();
+  ASSERT_THAT(again, SizeIs(1)) << "the robot's is older";
+  EXPECT_EQ(again[0].change, 10U);
+  EXPECT_EQ(again[0].state, State::kUnderWay) << "it is what it does";
+  ASSERT_TRUE(desk_->current());
+  Restart();
+  EXPECT_EQ(Due().at(0).change, 10U);
+}
+
 TEST_F(MissionDeskTest, AServerSendsItAnotherWayToTheSamePlace) {
   const auto way = [](const std::string& orders, bool relayed = true) {
     Mission mission = For("m1", orders);

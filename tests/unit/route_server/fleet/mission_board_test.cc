@@ -163,6 +163,43 @@ TEST_F(MissionBoardTest, ARobotThatIsBackIsToldAtOnce) {
   EXPECT_TRUE(HandedOver());
 }
 
+// A robot that lost its disk knows of neither any more.
+TEST_F(MissionBoardTest, AsksARobotThatIsMetForAllThatItTookToBeUnderWay) {
+  RobotIsThere(1);
+  for (const char* id : {"m1", "m2"}) {
+    Hear(For(id));
+    RobotSays(id, 2, State::kUnderWay);
+  }
+  (void)Say();
+  const auto asked = [this] {
+    std::vector<std::string> ids;
+    for (const exchange::Message& message : Say()) {
+      const auto* report = std::get_if<Report>(&message);
+      if (report == nullptr) continue;
+      EXPECT_TRUE(report->relayed);
+      EXPECT_EQ(report->change, 2U);
+      ids.push_back(report->mission);
+    }
+    return ids;
+  };
+  using testing::ElementsAre;
+  for (const bool server_restarts : {false, true}) {
+    if (server_restarts) Restart();
+    RobotIsThere(server_restarts ? 3 : 2);
+    EXPECT_THAT(asked(), ElementsAre("m1", "m2"));
+    EXPECT_THAT(asked(), IsEmpty());
+    Pass(seconds(2));
+    EXPECT_THAT(asked(), ElementsAre("m1", "m2")) << "it did not answer";
+  }
+  RobotSays("m1", 3, State::kFailed);
+  EXPECT_EQ(StateOf("m1"), State::kFailed);
+  RobotSays("m2", 3, State::kFailed);
+  (void)Say();
+  EXPECT_EQ(board_->CurrentOf(AgentId("robot1")), nullptr);
+  Pass(seconds(60));
+  EXPECT_THAT(asked(), IsEmpty());
+}
+
 TEST_F(MissionBoardTest, DropsWhatItCouldNotHandOverInTime) {
   Hear(For("m1"));
   (void)Say();
@@ -173,6 +210,19 @@ TEST_F(MissionBoardTest, DropsWhatItCouldNotHandOverInTime) {
   RobotIsThere();
   EXPECT_FALSE(HandedOver());
   EXPECT_EQ(StateOf("m1"), State::kExpired);
+}
+
+TEST_F(MissionBoardTest, AClockThatIsSetMakesNoneExpireNorLast) {
+  Hear(For("m1"));
+  (void)Say();
+  unix_ms_ += 86'400'000;
+  now_ += seconds(30);
+  EXPECT_FALSE(Said());
+  unix_ms_ -= 10 * std::int64_t{86'400'000};
+  now_ += seconds(30);
+  const auto dropped = Said();
+  ASSERT_TRUE(dropped);
+  EXPECT_EQ(dropped->state, State::kExpired);
 }
 
 TEST_F(MissionBoardTest, NoneIsKeptForEverForARobotThatIsNotHeard) {
