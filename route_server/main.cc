@@ -47,6 +47,8 @@ struct StoreOptions {
   std::uint64_t quota_mb = 0;  // of each scout
   std::uint32_t keep_revisions = 0;
   std::uint32_t keep_days = 0;
+  std::uint32_t delete_a_day = trailcast::catalog::RetentionPolicy{}.most_a_day;
+  std::string ages;  // as missions
 };
 
 void AddStoreOptions(CLI::App& app, StoreOptions& options) {
@@ -89,9 +91,18 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
       ->envname("TRAILCAST_KEEP_REVISIONS");
   app.add_option("--keep-days", options.keep_days,
                  "Delete revisions that are not active so many days after the last of them was "
-                 "stored here; 0: never")
+                 "stored here, by the time that this server has run since; 0: never")
       ->check(CLI::Range(0, 36500))
       ->envname("TRAILCAST_KEEP_DAYS");
+  app.add_option("--delete-a-day", options.delete_a_day,
+                 "How many revisions go in a day at most by the two before; what is more waits")
+      ->check(CLI::Range(1, 1'000'000))
+      ->envname("TRAILCAST_DELETE_A_DAY");
+  app.add_option("--ages", options.ages,
+                 "SQLite file that holds for how long revisions lie here, for --keep-days, created "
+                 "if missing; default: the store's name with '.ages' behind it; with PostgreSQL, "
+                 "each server's own")
+      ->envname("TRAILCAST_AGES");
   app.option_defaults()->group(trailcast::program::kFirstGroup);
 }
 
@@ -150,6 +161,28 @@ void Keep(const std::string& file, const char* what, trailcast::server::Server& 
   if (!kept) spdlog::error("keeping no {}: {}", what, kept.error().message);
 }
 
+// Nothing is deleted where its age is not known.
+trailcast::Result<void> Retain(const StoreOptions& options, trailcast::server::Server& server) {
+  const trailcast::catalog::RetentionPolicy policy{
+      .keep_revisions = options.keep_revisions,
+      .keep_for = std::chrono::hours(24) * options.keep_days,
+      .most_a_day = options.delete_a_day};
+  if (!policy.any()) return {};
+  std::string file = OwnFile(options, options.ages, ".ages");
+  if (file.empty() && options.keep_days > 0) {
+    return trailcast::Fail(trailcast::ErrorCode::kInvalidArgument,
+                           "--keep-days with PostgreSQL needs --ages FILE, in which this server "
+                           "keeps for how long it has seen revisions lie");
+  }
+  auto ages = trailcast::store::AgeStore::Open(file.empty() ? ":memory:" : file);
+  if (ages) {
+    server.Retain(policy, *std::move(ages));
+  } else {
+    spdlog::error("deleting nothing that is outdated: {}", ages.error().message);
+  }
+  return {};
+}
+
 // What Cyclone receives lands in blocks of 1 MB. The C library would take the first from the system
 // and, once that is freed, all others from its heap, which they leave in pieces: it then grows with
 // each client that comes and goes, by some 9 kB, for the first thousand. A threshold that was set
@@ -179,10 +212,9 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const Store
        &Server::KeepNetwork);
   Keep(OwnFile(options, options.history, ".history"), "history", **server, &Server::KeepHistory);
   if (options.joints_auto) (*server)->TakeSureJoints();
-  const trailcast::catalog::RetentionPolicy policy{
-      .keep_revisions = options.keep_revisions,
-      .keep_for = std::chrono::hours(24) * options.keep_days};
-  if (policy.any()) (*server)->Retain(policy);
+  if (auto retains = Retain(options, **server); !retains) {
+    return program::Complain(app, retains.error());
+  }
   quotas.stored_bytes = options.quota_mb * 1'000'000;
   if (quotas.any()) (*server)->Limit(quotas);
   if (http.port != 0) {

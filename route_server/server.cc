@@ -217,7 +217,7 @@ void Server::Serve() {
   TellMissions();
   ShowWhatItDoes();
   presence_.Tick(now);
-  if (retention_ && now >= retention_due_) {
+  if (outdated_ && now >= retention_due_) {
     retention_due_ = now + kRetentionEvery;
     DeleteOutdated();
   }
@@ -321,7 +321,7 @@ void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
 }
 
 void Server::DeleteOutdated() {
-  const auto outdated = retention_->Next(std::chrono::system_clock::now());
+  const auto outdated = outdated_->Next(steady_clock::now());
   if (!outdated) {
     spdlog::warn("looking for outdated revisions: {}", outdated.error().message);
     return;
@@ -336,6 +336,17 @@ void Server::DeleteOutdated() {
   for (const route::RouteInfo& info : *outdated) {
     spdlog::info("outdated: revision {} of route '{}' deleted", info.revision.value(), info.name);
   }
+}
+
+std::string Server::Degraded() const {
+  std::string degraded = upkeep_->Degraded();
+  const auto add = [&](const char* what, const std::string& why) {
+    if (why.empty()) return;
+    degraded += fmt::format("{}{}: {}", degraded.empty() ? "" : "; ", what, why);
+  };
+  add("nothing that scouts send is stored", keeper_->untaken());
+  if (missions_) add("no news of missions are stored", missions_->untaken());
+  return degraded;
 }
 
 void Server::ShowMetrics() {

@@ -16,6 +16,7 @@
 #include "route_server/network/replanning.h"
 #include "route_server/routes/history.h"
 #include "route_server/routes/holders.h"
+#include "route_server/routes/outdated.h"
 #include "route_server/routes/quotas.h"
 #include "route_server/routes/refresh_watch.h"
 #include "route_server/routes/request_queue.h"
@@ -23,7 +24,6 @@
 #include "route_server/status/http_page.h"
 #include "route_server/status/journal.h"
 #include "route_server/status/metrics.h"
-#include "services/catalog/retention.h"
 #include "services/catalog/view_catalog.h"
 #include "services/exchange/route_keeper.h"
 #include "services/program/presence.h"
@@ -40,8 +40,10 @@ class Server {
       const AgentId& name, std::unique_ptr<store::RouteStore> store,
       std::unique_ptr<exchange::RouteExchange> exchange);
 
-  // Deletes what the policy does not keep, from now on.
-  void Retain(const catalog::RetentionPolicy& policy) { retention_.emplace(*store_, policy); }
+  // Deletes what the policy does not keep, from now on, by `ages`.
+  void Retain(const catalog::RetentionPolicy& policy, std::unique_ptr<store::AgeStore> ages) {
+    outdated_.emplace(*store_, policy, std::move(ages), std::chrono::steady_clock::now());
+  }
   // Nobody may use more than this, from now on.
   void Limit(const QuotaOptions& options);
   // Keeps what robots are sent to do, from now on; without, that is not this server's.
@@ -104,6 +106,8 @@ class Server {
   void Propose(const Meeting& meeting);
   void Tell(const Crossing& crossing, std::chrono::steady_clock::time_point now);
   void DeleteOutdated();
+  // What is not as it should be while all are served, or nothing.
+  [[nodiscard]] std::string Degraded() const;
   void ShowMetrics();
   void ShowWhatItDoes();
   void ShowStatus(exchange::AgentMode mode, const std::string& detail);
@@ -137,7 +141,7 @@ class Server {
   Metrics metrics_;
   std::unique_ptr<HttpPage> page_;  // none: nobody asked for one
   std::chrono::steady_clock::time_point metrics_due_{};
-  std::optional<catalog::Retention> retention_;  // none: everything is kept
+  std::optional<Outdated> outdated_;  // none: everything is kept
   std::chrono::steady_clock::time_point retention_due_{};
 };
 

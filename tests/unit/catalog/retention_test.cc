@@ -28,13 +28,19 @@ class RetentionTest : public testing::Test {
     info.standing = standing;
     ASSERT_TRUE(store_->PutRoute(info));
   }
-  // One round through the store, carried out; "route/revision" of what went.
-  std::vector<std::string> Go(const RetentionPolicy& policy, int pages = 1, int days_later = 0) {
+  // One round through the store, carried out, when all in it is so old; "route/revision" of what
+  // went.
+  std::vector<std::string> Go(const RetentionPolicy& policy, int pages = 1, int days_old = 0) {
     Retention retention(*store_, policy);
     std::vector<std::string> gone;
     for (; pages > 0; --pages) {
-      const auto outdated =
-          retention.Next(std::chrono::system_clock::now() + hours(24 * days_later)).value();
+      const auto outdated = retention
+                                .Next([&](const std::vector<Retention::Grown>& revisions)
+                                          -> Result<std::vector<std::chrono::milliseconds>> {
+                                  return std::vector<std::chrono::milliseconds>(
+                                      revisions.size(), hours(24 * days_old));
+                                })
+                                .value();
       EXPECT_TRUE(store_->PutRoutes(outdated));
       for (const route::RouteInfo& info : outdated) {
         EXPECT_EQ(store_->FindRoute(info.key).value()->standing, Standing::kDeleted);
