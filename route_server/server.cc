@@ -355,12 +355,12 @@ void Server::ShowMetrics() {
   metrics_.backlog = keeper_->backlog();
   metrics_.agents = journal_.agents();
   if (const auto page = store_->QueryRoutes({.page_size = 1})) metrics_.routes = page->total;
-  metrics_.store_reachable = upkeep_->store_trouble().empty();
+  metrics_.store_reachable = upkeep_->store_trouble().empty() && keeper_->untaken().empty();
   metrics_.partial_routes = upkeep_->partial_routes();
   metrics_.lacking_segments = upkeep_->lacking_segments();
   metrics_.dropped_strays = upkeep_->dropped_strays();
   if (network_) metrics_.joints.open = network_->open_proposals();
-  page_->Show({metrics_.Text(), upkeep_->store_trouble(), upkeep_->Degraded()});
+  page_->Show({metrics_.Text(), upkeep_->store_trouble(), Degraded()});
 }
 
 void Server::ShowWhatItDoes() {
@@ -372,11 +372,9 @@ void Server::ShowWhatItDoes() {
   }
   std::string detail = fmt::format("serving: {} segments stored, {} sent",
                                    keeper_->counters().appended, keeper_->counters().answered);
-  if (const std::string degraded = upkeep_->Degraded(); !degraded.empty()) {
-    detail += "; " + degraded;
-  }
+  if (const std::string degraded = Degraded(); !degraded.empty()) detail += "; " + degraded;
   if (const std::string trouble = fleet_.NameTrouble(); !trouble.empty()) detail += "; " + trouble;
-  ShowStatus(exchange::AgentMode::kWaiting, detail);
+  ShowStatus(exchange::AgentMode::kWaiting, PlainText(detail, exchange::kMaxLineBytes));
 }
 
 void Server::ShowStatus(exchange::AgentMode mode, const std::string& detail) {

@@ -143,6 +143,7 @@ class Server {
   std::chrono::steady_clock::time_point metrics_due_{};
   std::optional<Outdated> outdated_;  // none: everything is kept
   std::chrono::steady_clock::time_point retention_due_{};
+  std::chrono::steady_clock::time_point tell_held_back_at_{};
 };
 
 }  // namespace trailcast::server

@@ -188,6 +188,7 @@ void MissionBoard::Keep(const mission::Mission& mission, mission::Record stored)
 // The robot's own word, which is durable when it is said again.
 void MissionBoard::On(const mission::Report& report, std::int64_t now_unix_ms) {
   const auto are_news = store_->Change({&report, 1}, now_unix_ms);
+  NoteStored(are_news);
   if (!are_news) {
     Warn(are_news.error());
     return;
@@ -208,13 +209,13 @@ void MissionBoard::On(const mission::Report& report, std::int64_t now_unix_ms) {
 }
 
 void MissionBoard::NoteCurrent(const mission::Report& report) {
-  Current* known = current_.Find(report.agent);
   if (!mission::HasEnded(report.state)) {
     unended_.Touch(report.agent)[report.mission] = report;
   } else if (auto* unended = unended_.Find(report.agent)) {
     unended->erase(report.mission);
     if (unended->empty()) unended_.Erase(report.agent);
   }
+  Current* known = current_.Find(report.agent);
   const bool is_known = known != nullptr && known->record.mission.id == report.mission;
   if (mission::HasEnded(report.state)) {
     if (is_known) current_.Erase(report.agent);
@@ -245,9 +246,9 @@ Result<void> MissionBoard::Amend(const AgentId& agent, const std::string& orders
   Current* current = current_.Find(agent);
   if (current == nullptr) return Fail(ErrorCode::kNotFound, "'{}' has no mission", agent.value());
   mission::Mission& mission = current->record.mission;
-  if (auto stored = store_->Amend(agent, mission.id, orders); !stored) {
-    return tl::unexpected(stored.error());
-  }
+  const auto stored = store_->Amend(agent, mission.id, orders);
+  NoteStored(stored);
+  if (!stored) return tl::unexpected(stored.error());
   mission.orders = orders;
   current->record.last.task = 0;  // of these
   current->tell_at = {};
@@ -314,7 +315,9 @@ void MissionBoard::Drop(mission::State state, const Why& why, std::int64_t now_u
     }
   }
   if (reports.empty()) return;
-  if (const auto stored = store_->Change(reports, now_unix_ms); !stored) {
+  const auto stored = store_->Change(reports, now_unix_ms);
+  NoteStored(stored);
+  if (!stored) {
     Warn(stored.error());
     return;
   }
@@ -386,10 +389,10 @@ std::vector<exchange::Message> MissionBoard::Tick(Time now, std::int64_t now_uni
     expire_at_ = now + kExpireEvery;
     Expire(now, now_unix_ms);
   }
+  Agree(now);
   for (const auto& [agent, missions] : unanswered_) {
     Heard* heard = heard_.Find(agent);
     if (heard == nullptr || now < heard->tell_at) continue;
-  Agree(now);
     heard->tell_at = now + heard->pause;
     heard->pause = std::min(2 * heard->pause, kLate);
     mission::Mission copy = missions.front().mission;

@@ -49,6 +49,8 @@ class MissionBoard {
   };
   [[nodiscard]] std::vector<Note> TakeNotes() { return std::exchange(notes_, {}); }
   [[nodiscard]] std::size_t unanswered() const;
+  // Why what was last to be stored was not; empty: it was.
+  [[nodiscard]] const std::string& untaken() const { return untaken_; }
 
   // What a robot is at, by its own word; null: nothing, or nothing that is known here.
   [[nodiscard]] const mission::Record* CurrentOf(const AgentId& agent) const;
@@ -71,10 +73,10 @@ class MissionBoard {
   void On(const exchange::AgentGone& gone);
   [[nodiscard]] Result<void> LoadCurrent();
   void NoteCurrent(const mission::Report& report);
-  void Keep(const mission::Mission& mission, mission::Record stored);
-  // Drops with one commit the missions that no robot has answered and that `why` has a reason for.
   // With robots that are met, whether they still do what is taken here to be under way.
   void Agree(Time now);
+  void Keep(const mission::Mission& mission, mission::Record stored);
+  // Drops with one commit the missions that no robot has answered and that `why` has a reason for.
   // `expires`: by the time that passes here, however the server's clock is set meanwhile; nothing:
   // it has not been looked at yet.
   struct Waiting : mission::Record {
@@ -86,6 +88,11 @@ class MissionBoard {
   void Expire(Time now, std::int64_t now_unix_ms);
   void Say(mission::Report report);
   void Warn(const Error& error) { notes_.push_back({error.message, true}); }
+  // Whether something was stored is known.
+  template <typename Stored>
+  void NoteStored(const Stored& stored) {
+    untaken_ = stored ? "" : stored.error().message;
+  }
 
   AgentId server_;
   std::unique_ptr<store::MissionStore> store_;
@@ -96,26 +103,27 @@ class MissionBoard {
     Time tell_at{};  // if it goes another way than at first
   };
   NewestMap<AgentId, Current> current_{kMostAgents};
+  // What each robot has said last of its missions that have not ended, by their ids. It may have
+  // lost them since, with its disk.
+  NewestMap<AgentId, std::map<std::string, mission::Report>> unended_{kMostAgents};
   struct Heard {
     std::uint64_t instance = 0;
     Time tell_at{};
     std::chrono::milliseconds pause{};  // then, before it is told again
+    Time agree_at{};
+    std::chrono::milliseconds agree_pause{};  // likewise
   };
   NewestMap<AgentId, Heard> heard_{kMostAgents};
   Time expire_at_{};
-  // What each robot has said last of its missions that have not ended, by their ids. It may have
-  // lost them since, with its disk.
-  NewestMap<AgentId, std::map<std::string, mission::Report>> unended_{kMostAgents};
   // Commands and answers that are stored, since they are said again and again.
   using NowKey = std::pair<AgentId, std::uint64_t>;
   NewestMap<NowKey, bool> commands_{kMostAgents};
   NewestMap<std::pair<AgentId, NowKey>, bool> answers_{kMostAgents};
-    Time agree_at{};
-    std::chrono::milliseconds agree_pause{};  // likewise
   // Missions that cannot be stored are said again, too.
   ToldLately told_{std::chrono::milliseconds(60'000)};
   std::vector<exchange::Message> outgoing_;
   std::vector<Note> notes_;
+  std::string untaken_;
 };
 
 }  // namespace trailcast::server

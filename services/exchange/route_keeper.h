@@ -120,6 +120,11 @@ class RouteKeeper {
   [[nodiscard]] const KeeperCounters& counters() const { return counters_; }
   // Segments that were announced and are not durable here.
   [[nodiscard]] std::size_t backlog() const;
+  // Why the store did not take what was last given to it, its disk being full for example; empty:
+  // it did.
+  [[nodiscard]] const std::string& untaken() const {
+    return segments_untaken_.empty() ? routes_untaken_ : segments_untaken_;
+  }
 
  private:
   RouteKeeper(AgentId self, store::RouteStore& store, Catalog catalog, Integrity integrity,
@@ -197,6 +202,9 @@ class RouteKeeper {
   AnswerQueue answers_;
   StandIn stand_in_;
   MissingRoutes missing_;
+  // Apart, since there may be room for the one when there is none for the other.
+  std::string segments_untaken_;
+  std::string routes_untaken_;
   std::vector<Note> notes_;
   ToldLately noted_{options_.note_again};
   KeeperCounters counters_;

@@ -111,9 +111,12 @@ Result<void> RouteKeeper::Put(std::span<const RouteInfo> infos, bool completing)
 void RouteKeeper::StoreInfos(std::span<const RouteInfo> infos, bool completing, Time now,
                              std::vector<RouteKey>& stored) {
   if (infos.empty()) return;
-  if (const auto put = Put(infos, completing); put) {
+  const auto put = Put(infos, completing);
+  const bool is_away = !put && put.error().code == ErrorCode::kUnavailable;
+  routes_untaken_ = is_away ? put.error().message : "";
+  if (put) {
     for (const RouteInfo& info : infos) MarkStored(info, now, stored);
-  } else if (infos.size() > 1 && put.error().code != ErrorCode::kUnavailable) {
+  } else if (infos.size() > 1 && !is_away) {
     for (const RouteInfo& info : infos) StoreInfos({&info, 1}, completing, now, stored);
   } else {
     Refuse(put.error(), infos.front().key, now);

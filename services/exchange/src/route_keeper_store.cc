@@ -132,7 +132,10 @@ void RouteKeeper::Append(std::span<SegmentPiece> pieces, Time now) {
     const bool one_is_bad = code == ErrorCode::kConflict || code == ErrorCode::kCorrupt;
     if (!one_is_bad || pieces.size() == 1) {
       Refuse(stored.error(), pieces.front().key, now);
-      if (code == ErrorCode::kUnavailable) TellFull(pieces, stored.error());
+      if (code == ErrorCode::kUnavailable) {
+        segments_untaken_ = stored.error().message;
+        TellFull(pieces, stored.error());
+      }
       if (one_is_bad) Refresh(pieces.front().key, routes_.at(pieces.front().key), now);
       return;
     }
@@ -141,6 +144,7 @@ void RouteKeeper::Append(std::span<SegmentPiece> pieces, Time now) {
     Append(pieces.subspan(half), now);
     return;
   }
+  segments_untaken_.clear();
   counters_.appended += pieces.size();
   for (SegmentPiece& piece : pieces) {
     counters_.appended_bytes += piece.bytes.size();

@@ -298,6 +298,7 @@ TEST_F(RouteKeeperTest, AFullDiskMeansARefusalUntilThereIsRoom) {
   EXPECT_EQ(refused[0].reason, "disk full");
   EXPECT_EQ(refused[0].durable_prefix, 0U);
   EXPECT_EQ(keeper_->TakeNotes().at(0).severity, Note::Severity::kError);
+  EXPECT_EQ(keeper_->untaken(), "disk full");
   store_.full = false;
   EXPECT_EQ(Only<SegmentRequest>(TickAfter(milliseconds(200))).size(), 1U);
   Deliver({pieces_[0]});
@@ -305,6 +306,7 @@ TEST_F(RouteKeeperTest, AFullDiskMeansARefusalUntilThereIsRoom) {
   ASSERT_EQ(taken.size(), 1U);
   EXPECT_EQ(taken[0].refusal, Refusal::kNone);
   EXPECT_EQ(taken[0].durable_prefix, 1U);
+  EXPECT_EQ(keeper_->untaken(), "");
 }
 
 TEST_F(RouteKeeperTest, AScoutOverItsQuotaIsToldSoUntilAWhileAfter) {
