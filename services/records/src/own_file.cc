@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "services/base/durable_file.h"
+
 namespace trailcast::store {
 
 OwnDatabase::OwnDatabase(std::filesystem::path file, const OwnFile& what)
@@ -19,6 +21,10 @@ OwnDatabase::OwnDatabase(std::filesystem::path file, const OwnFile& what)
   if (!empty && (id != own.id || version != own.version)) {
     throw SQLite::Exception(
         "it holds no " + std::string(own.holds) + ", or those of another version", SQLITE_NOTADB);
+  }
+  // SQLite waits for what is in the file to be on the disk, and not for its name.
+  if (empty && path != ":memory:" && SyncToDisk(FolderOf(path))) {
+    throw SQLite::Exception("its folder cannot be written", SQLITE_CANTOPEN);
   }
   db.exec("PRAGMA journal_mode = WAL");
   db.exec("PRAGMA synchronous = FULL");

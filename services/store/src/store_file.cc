@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "services/base/durable_file.h"
 #include "services/store/src/salvage/replacement.h"
 #include "services/store/src/salvage/sqlite_header.h"
 
@@ -54,6 +55,8 @@ Result<StoreFile> StoreFile::Acquire(const std::filesystem::path& path, Conditio
 }
 
 Result<StoreFile> StoreFile::OpenLocked(const std::filesystem::path& path) {
+  std::error_code unknown;
+  const bool is_new = !std::filesystem::exists(path, unknown);
   const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (descriptor < 0) {
     const int error = errno;
@@ -63,6 +66,12 @@ Result<StoreFile> StoreFile::OpenLocked(const std::filesystem::path& path) {
   }
   StoreFile file(path, descriptor);
   if (Result<void> locked = file.Lock(); !locked) return tl::unexpected(locked.error());
+  // SQLite waits for what is in the file to be on the disk, and not for its name.
+  if (const std::error_code failed = is_new ? SyncToDisk(FolderOf(path)) : std::error_code();
+      failed) {
+    return Fail(ErrorCode::kUnavailable, "cannot write the folder of route store {}: {}",
+                path.string(), failed.message());
+  }
   return file;
 }
 
