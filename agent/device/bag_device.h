@@ -21,12 +21,14 @@ struct BagRun {
 };
 
 // A drive that a robot's own tools recorded (services/bag), as fast as it can be read. Frames have
-// the times that the robot gave them, and the odometry of those times. Pictures that cannot be
-// read, that come after a later one, or that were taken more than half a second from any odometry
-// are left out, and counted at the end. What it is told to drive has no effect.
+// the times that the robot gave them, made to go forward as on the wire (recorded_clock.h), and the
+// odometry of those times. Pictures that cannot be read, that come after a later one, or that were
+// taken more than half a second from any odometry are left out, which is told at the end: how many,
+// and how far the robot drove meanwhile. What it is told to drive has no effect.
 class BagDevice final : public RobotDevice {
  public:
-  // Reads all odometry and the first picture already. Errors list the topics that there are.
+  // Reads all odometry, when pictures were taken, and the first of them already. Errors list the
+  // topics that there are.
   [[nodiscard]] static Result<std::unique_ptr<BagDevice>> Open(const BagRun& run);
   ~BagDevice() override;
 

@@ -3,9 +3,11 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
+#include "agent/device/recorded_clock.h"
 #include "agent/device/recorded_poses.h"
 #include "agent/device/src/bag_topics.h"
 #include "services/bag/ros_messages.h"
@@ -26,27 +28,16 @@ constexpr std::chrono::seconds kCommandHolds{1};
 // More than a message waits to be recorded.
 constexpr std::chrono::seconds kStampsStep{1};
 
-// A message's times: what the sensor stamped (0: nothing), and when it was recorded.
-struct Times {
-  SensorTime stamp{};
-  nanoseconds logged_at{};
-};
-
 struct Commanded {
   nanoseconds logged_at{};
   motion::VelocityCommand velocity;
-};
-
-struct Sample {
-  Times times;
-  motion::Pose2 pose;
 };
 
 // Tells where a topic's stamps step against the recorder's clock.
 class StampSteps {
  public:
   // How far they have just stepped; nothing: they go on, or there are none.
-  [[nodiscard]] std::optional<nanoseconds> Add(const Times& times) {
+  [[nodiscard]] std::optional<nanoseconds> Add(const RecordedTimes& times) {
     if (times.stamp == SensorTime(0)) return std::nullopt;
     const nanoseconds ahead = times.stamp - times.logged_at;
     const auto step = ahead - std::exchange(ahead_, ahead).value_or(ahead);
@@ -57,8 +48,17 @@ class StampSteps {
   std::optional<nanoseconds> ahead_;
 };
 
-bool OfOneClock(const Times& a, const Times& b) {
-  return std::chrono::abs((a.stamp - a.logged_at) - (b.stamp - b.logged_at)) <= kRecordersSameClock;
+// How far it was driven until then.
+struct Driven {
+  SensorTime at{};
+  double length_m = 0.0;
+};
+
+double LengthUntil(const std::vector<Driven>& driven, SensorTime then) {
+  const auto after =
+      std::upper_bound(driven.begin(), driven.end(), then,
+                       [](SensorTime time, const Driven& each) { return time < each.at; });
+  return after == driven.begin() ? 0.0 : std::prev(after)->length_m;
 }
 
 struct LeftOut {
@@ -66,6 +66,7 @@ struct LeftOut {
   std::string why_unreadable;
   int late = 0;
   int without_odometry = 0;
+  double length_m = 0.0;  // of the drive between the pictures that are not
 
   [[nodiscard]] std::string Text() const {
     std::vector<std::string> parts;
@@ -87,27 +88,37 @@ struct BagDevice::State {
   [[nodiscard]] Result<void> ReadOdometry();
   [[nodiscard]] Result<void> ReadCommands();
   [[nodiscard]] std::optional<motion::VelocityCommand> HeardAt(nanoseconds logged_at) const;
-  [[nodiscard]] Result<void> ChooseClock();
-  [[nodiscard]] Result<Times> TimesOf(const bag::Message& message) const;
+  [[nodiscard]] Result<void> ReadPictureTimes();
+  void ChooseClock();
+  [[nodiscard]] SensorTime TimeOf(const RecordedClock::Message& message) const;
+  [[nodiscard]] Result<RecordedTimes> TimesOf(const bag::Message& message) const;
   [[nodiscard]] Result<image::GrayImage> Gray(const bag::Message& message) const;
   [[nodiscard]] Result<std::optional<Observation>> Next();
   [[nodiscard]] Result<std::optional<Observation>> Look(const bag::Message& message);
   void Tell(std::string what);
-  void TellStep(const std::string& topic, const Times& times, StampSteps& steps);
+  void TellStep(const std::string& topic, const RecordedTimes& times, StampSteps& steps);
   void TellDamage();
+  void NoteGap(SensorTime until);
   void TellEnd();
 
   std::filesystem::path name;
   std::unique_ptr<bag::Bag> bag;
   BagTopics topics;
-  std::vector<Sample> odometry;
+  RecordedClock odometry;
+  std::vector<motion::Pose2> raw_poses;  // of these
+  std::vector<Driven> driven;
   std::vector<Commanded> commands;
   std::optional<RecordedPoses> poses;
+  bool has_stamps = false;
+  RecordedClock pictures_clock;
+  std::vector<std::optional<std::size_t>>
+      in_clock;                      // each picture's place there, if it can be read
   bool by_stamps = true;             // else by the times of recording
   std::optional<Observation> first;  // until it is handed out
   std::optional<SensorTime> begun;   // when the first picture was taken
   std::optional<SensorTime> last;
-  std::uint64_t pictures = 0;  // looked at
+  std::uint64_t pictures = 0;          // looked at
+  std::optional<SensorTime> gap_from;  // since then pictures are left out
   LeftOut left_out;
   std::size_t damage_told = 0;
   std::optional<nanoseconds> recorded_from;  // the first message that was looked at
@@ -122,7 +133,8 @@ void BagDevice::State::Tell(std::string what) {
   news.push_back(std::move(what));
 }
 
-void BagDevice::State::TellStep(const std::string& topic, const Times& times, StampSteps& steps) {
+void BagDevice::State::TellStep(const std::string& topic, const RecordedTimes& times,
+                                StampSteps& steps) {
   if (!recorded_from) recorded_from = times.logged_at;
   const auto step = steps.Add(times);
   if (!step) return;
@@ -137,18 +149,20 @@ Result<void> BagDevice::State::ReadOdometry() {
   bag->Begin(*topics.odometry);
   int damaged = 0;
   StampSteps steps;
+  std::vector<RecordedTimes> times;
   while (true) {
     const auto message = bag->Next();
     if (!message) return tl::unexpected(message.error());
     if (!*message) break;
     if (const auto read = bag::ReadOdometry((*message)->bytes)) {
-      odometry.push_back({{read->stamp, (*message)->logged_at}, read->pose});
-      TellStep(topics.odometry->name, odometry.back().times, steps);
+      times.push_back({read->stamp, (*message)->logged_at});
+      raw_poses.push_back(read->pose);
+      TellStep(topics.odometry->name, times.back(), steps);
     } else {
       ++damaged;
     }
   }
-  if (odometry.empty()) {
+  if (times.empty()) {
     return Fail(ErrorCode::kInvalidArgument,
                 "{}: no message of {} can be read as odometry; --odom-topic '' does without",
                 name.string(), topics.odometry->name);
@@ -157,8 +171,9 @@ Result<void> BagDevice::State::ReadOdometry() {
     Tell(fmt::format(
         "{} of {} messages of {} are left out: damaged, numbers that are none, or an orientation "
         "of length 0",
-        damaged, odometry.size() + static_cast<std::size_t>(damaged), topics.odometry->name));
+        damaged, times.size() + static_cast<std::size_t>(damaged), topics.odometry->name));
   }
+  odometry = FollowClocks(times);
   return {};
 }
 
@@ -186,7 +201,7 @@ std::optional<motion::VelocityCommand> BagDevice::State::HeardAt(nanoseconds log
   return newest.velocity;
 }
 
-Result<Times> BagDevice::State::TimesOf(const bag::Message& message) const {
+Result<RecordedTimes> BagDevice::State::TimesOf(const bag::Message& message) const {
   const auto stamp =
       topics.compressed
           ? bag::ReadCompressedImage(message.bytes).map([](const auto& image) {
@@ -194,36 +209,54 @@ Result<Times> BagDevice::State::TimesOf(const bag::Message& message) const {
             })
           : bag::ReadImage(message.bytes).map([](const auto& image) { return image.stamp; });
   if (!stamp) return tl::unexpected(stamp.error());
-  return Times{*stamp, message.logged_at};
+  return RecordedTimes{*stamp, message.logged_at};
 }
 
-// By the first picture that can be read: its stamp, if it has one, and odometry's is of one clock.
-Result<void> BagDevice::State::ChooseClock() {
+// What a clock does is known once all of it is.
+Result<void> BagDevice::State::ReadPictureTimes() {
   bag->Begin(topics.image);
+  std::vector<RecordedTimes> all;
   while (true) {
     const auto message = bag->Next();
     if (!message) return tl::unexpected(message.error());
     if (!*message) break;
     const auto times = TimesOf(**message);
-    if (!times) continue;
-    by_stamps = times->stamp != SensorTime(0);
-    if (by_stamps && !odometry.empty() && !OfOneClock(*times, odometry.front().times)) {
-      Tell(
-          "stamps of pictures and odometry are of different clocks: taking the times at which they "
-          "were recorded");
-      by_stamps = false;
-    }
-    break;
+    in_clock.push_back(times ? std::optional(all.size()) : std::nullopt);
+    if (times) all.push_back(*times);
+  }
+  has_stamps = !all.empty() && all.front().stamp != SensorTime(0);
+  pictures_clock = FollowClocks(all);
+  return {};
+}
+
+// By stamps, if pictures have them, and odometry's are of the same clock.
+void BagDevice::State::ChooseClock() {
+  by_stamps = has_stamps;
+  const auto apart = Apart(pictures_clock, odometry);
+  if (by_stamps && apart && std::chrono::abs(*apart) > kRecordersSameClock) {
+    Tell(
+        "stamps of pictures and odometry are of different clocks: taking the times at which they "
+        "were recorded");
+    by_stamps = false;
   }
   std::vector<RecordedPoses::Sample> samples;
-  samples.reserve(odometry.size());
-  for (const Sample& sample : odometry) {
-    samples.push_back({by_stamps ? sample.times.stamp : sample.times.logged_at, sample.pose});
+  for (std::size_t i = 0; i < raw_poses.size(); ++i) {
+    if (!odometry.messages[i].taken) continue;
+    samples.push_back({TimeOf(odometry.messages[i]), raw_poses[i]});
   }
   poses.emplace(samples);
-  odometry = {};
-  bag->Begin(topics.image);
-  return {};
+  double length_m = 0.0;
+  std::optional<motion::Pose2> before;
+  for (const RecordedPoses::Sample& sample : samples) {
+    const motion::Pose2 pose = poses->history().At(sample.taken);
+    if (before) length_m += motion::Position(motion::Between(*before, pose)).norm();
+    before = pose;
+    driven.push_back({sample.taken, length_m});
+  }
+}
+
+SensorTime BagDevice::State::TimeOf(const RecordedClock::Message& message) const {
+  return by_stamps ? *message.taken : message.came;
 }
 
 Result<image::GrayImage> BagDevice::State::Gray(const bag::Message& message) const {
@@ -248,12 +281,13 @@ Result<std::optional<Observation>> BagDevice::State::Look(const bag::Message& me
   const auto times = TimesOf(message);
   if (!times) return unreadable(times.error());
   TellStep(topics.image.name, *times, picture_steps);
-  Observation observation;
-  observation.stamp = by_stamps ? times->stamp : times->logged_at;
-  if (last && observation.stamp <= *last) {
+  const auto place = pictures <= in_clock.size() ? in_clock[pictures - 1] : std::nullopt;
+  if (!place || !pictures_clock.messages[*place].taken) {
     ++left_out.late;
     return std::nullopt;
   }
+  Observation observation;
+  observation.stamp = TimeOf(pictures_clock.messages[*place]);
   if (topics.odometry) {
     if (poses->history().FromNearest(observation.stamp) > kOdometryNear) {
       ++left_out.without_odometry;
@@ -273,6 +307,7 @@ Result<std::optional<Observation>> BagDevice::State::Look(const bag::Message& me
       spdlog::warn("{:.2f} s into the drive {}", Seconds(observation.stamp - *begun), each);
     }
   }
+  if (gap_from) NoteGap(observation.stamp);
   last = observation.stamp;
   return observation;
 }
@@ -285,6 +320,7 @@ Result<std::optional<Observation>> BagDevice::State::Next() {
     if (!*message) return std::nullopt;
     auto observation = Look(**message);
     if (!observation || *observation) return observation;
+    if (!gap_from) gap_from = last.value_or(SensorTime::min());
   }
 }
 
@@ -294,9 +330,19 @@ void BagDevice::State::TellDamage() {
   }
 }
 
+void BagDevice::State::NoteGap(SensorTime until) {
+  const SensorTime from = *std::exchange(gap_from, std::nullopt);
+  left_out.length_m += LengthUntil(driven, until) - LengthUntil(driven, from);
+}
+
 void BagDevice::State::TellEnd() {
-  const std::string text = std::exchange(left_out, {}).Text();
-  if (!text.empty()) Tell(fmt::format("of {} pictures are left out: {}", pictures, text));
+  if (gap_from) NoteGap(SensorTime::max());
+  const LeftOut all = std::exchange(left_out, {});
+  if (all.Text().empty()) return;
+  Tell(fmt::format("of {} pictures are left out: {}{}", pictures, all.Text(),
+                   driven.empty() ? ""
+                                  : fmt::format("; nothing is seen of {:.1f} m of {:.1f} m driven",
+                                                all.length_m, driven.back().length_m)));
 }
 
 BagDevice::BagDevice(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -317,7 +363,9 @@ Result<std::unique_ptr<BagDevice>> BagDevice::Open(const BagRun& run) {
   }
   if (auto read = state->ReadOdometry(); !read) return tl::unexpected(read.error());
   if (auto read = state->ReadCommands(); !read) return tl::unexpected(read.error());
-  if (auto chosen = state->ChooseClock(); !chosen) return tl::unexpected(chosen.error());
+  if (auto read = state->ReadPictureTimes(); !read) return tl::unexpected(read.error());
+  state->ChooseClock();
+  state->bag->Begin(state->topics.image);
   auto first = state->Next();
   if (!first) return Wrap(first.error(), run.bag.string());
   if (!*first) {

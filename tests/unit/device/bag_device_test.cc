@@ -205,6 +205,120 @@ TEST_F(BagDeviceTest, ClocksThatDifferAreReplacedByTheRecorders) {
   EXPECT_NEAR(all[0].odometry->x_m, 0.250, 1e-6);
 }
 
+// A drive of ten seconds, at one metre a second, whose clocks are as `at` makes them of the time.
+class BagClockTest : public BagDeviceTest {
+ protected:
+  struct Clocks {
+    nanoseconds stamp{};
+    nanoseconds logged{};
+  };
+  // Odometry thirty times a second, pictures ten times, in turn.
+  template <typename PictureClocks, typename OdometryClocks>
+  void Record(const PictureClocks& picture, const OdometryClocks& odometry) {
+    writer_.reset();
+    std::filesystem::remove(File());
+    for (int i = 0; i <= 300; ++i) {
+      const milliseconds at(i * 100 / 3);
+      const Clocks by = odometry(at);
+      Writer().Put("/odom", kOdometry, by.logged,
+                   test::OdometryMessage(by.stamp, {1e-3 * static_cast<double>(at.count()), 0, 0}));
+      if (i % 3 != 0) continue;
+      const Clocks seen = picture(at);
+      Writer().Put("/camera", kImage, seen.logged,
+                   test::ImageMessage(seen.stamp, test::WalkFrame(i / 3)));
+    }
+  }
+  static Clocks Right(milliseconds at) { return {kBegin + at, kBegin + at + kDelay}; }
+  // All 101 pictures, each where it was taken.
+  void ExpectAll() {
+    const auto device = Open();
+    ASSERT_TRUE(device) << device.error().message;
+    const auto all = All(**device);
+    ASSERT_EQ(all.size(), 101U);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      EXPECT_NEAR(all[i].odometry->x_m, 0.1 * static_cast<double>(i), 0.045) << i;
+      EXPECT_EQ(all[i].unknown.distance_m, 0.0) << i;
+      if (i == 0) continue;
+      EXPECT_NEAR(Seconds(all[i].stamp - all[i - 1].stamp), 0.1, 0.06) << i;
+    }
+  }
+};
+
+constexpr milliseconds kHalf{5000};
+
+TEST_F(BagClockTest, BothOfTheirClocksAreSetBackOnTheWay) {
+  for (const auto by : {std::chrono::seconds(10), std::chrono::seconds(3600)}) {
+    const auto set_back = [&](milliseconds at) {
+      const Clocks right = Right(at);
+      if (at < kHalf) return right;
+      return Clocks{right.stamp - by, right.logged - by};
+    };
+    Record(set_back, set_back);
+    ExpectAll();
+  }
+}
+
+TEST_F(BagClockTest, TheirStampsAloneAreSetBackOrAhead) {
+  for (const milliseconds by : {milliseconds(10'000), milliseconds(-86'400'000)}) {
+    const auto set = [&](milliseconds at) {
+      return at < kHalf ? Right(at) : Clocks{Right(at).stamp - by, Right(at).logged};
+    };
+    Record(set, set);
+    ExpectAll();
+    Record(set, Right);
+    ExpectAll();
+  }
+}
+
+TEST_F(BagClockTest, TheRecordersClockAloneIsSetBackOrAhead) {
+  for (const milliseconds by : {milliseconds(10'000), milliseconds(-86'400'000)}) {
+    const auto set = [&](milliseconds at) {
+      return at < kHalf ? Right(at) : Clocks{Right(at).stamp, Right(at).logged - by};
+    };
+    Record(set, set);
+    ExpectAll();
+  }
+}
+
+TEST_F(BagClockTest, OneMessageIsADayAhead) {
+  constexpr std::chrono::hours kDay{24};
+  for (const auto& [stamp, logged] :
+       std::vector<std::pair<nanoseconds, nanoseconds>>{{kDay, {}}, {{}, kDay}, {kDay, kDay}}) {
+    const auto one_ahead = [&, ahead = Clocks{stamp, logged}](milliseconds at) {
+      const Clocks right = Right(at);
+      const bool is_it = at > milliseconds(2950) && at < milliseconds(3020);
+      return is_it ? Clocks{right.stamp + ahead.stamp, right.logged + ahead.logged} : right;
+    };
+    Record(one_ahead, Right);
+    ExpectAll();
+    const auto first_ahead = [&, ahead = Clocks{stamp, logged}](milliseconds at) {
+      const Clocks right = Right(at);
+      const bool is_it = at > milliseconds(2980) && at < milliseconds(3020);
+      return is_it ? Clocks{right.stamp + ahead.stamp, right.logged + ahead.logged} : right;
+    };
+    Record(Right, first_ahead);
+    ExpectAll();
+  }
+}
+
+TEST_F(BagClockTest, EitherClockStandsAltogetherOrAtFirst) {
+  const auto stamps_stand = [](milliseconds at) { return Clocks{kBegin, Right(at).logged}; };
+  const auto recorder_stands = [](milliseconds at) { return Clocks{Right(at).stamp, kBegin}; };
+  const auto zero_at_first = [](milliseconds at) {
+    return at < milliseconds(300) ? Clocks{{}, Right(at).logged} : Right(at);
+  };
+  Record(stamps_stand, stamps_stand);
+  ExpectAll();
+  Record(stamps_stand, Right);
+  ExpectAll();
+  Record(recorder_stands, recorder_stands);
+  ExpectAll();
+  Record(zero_at_first, Right);
+  ExpectAll();
+  Record(Right, zero_at_first);
+  ExpectAll();
+}
+
 TEST_F(BagDeviceTest, PicturesWithoutStampsHaveTheTimeOfRecording) {
   Writer().Put("/camera", kImage, kBegin, test::ImageMessage({}, test::WalkFrame(0)));
   Writer().Put("/camera", kImage, kBegin + milliseconds(50),
