@@ -120,7 +120,8 @@ class Ros2Driver {
   Ros2Driver(const Ros2Driver&) = delete;
   Ros2Driver& operator=(const Ros2Driver&) = delete;
 
-  // What came since, after waiting for something at most so long. Samples whose numbers are none
+  // What came since, after waiting for something at most so long; pictures and odometry of one
+  // publisher each. Samples whose numbers are none
   // (NaN, a quaternion of length 0) are left out, and scans and ranges that can be no sensor's.
   [[nodiscard]] virtual std::vector<Ros2Sensed> Take(std::chrono::milliseconds max_wait) = 0;
   [[nodiscard]] virtual Result<void> Publish(const Ros2Command& command) = 0;
@@ -141,6 +142,9 @@ class Ros2Driver {
     int unusable_odometry = 0;
   };
   [[nodiscard]] virtual Peers peers() const = 0;
+  // The topic of pictures or of odometry that several publish at once; empty: neither. One of them
+  // alone is passed on.
+  [[nodiscard]] virtual std::string crowded() const { return {}; }
 
  protected:
   Ros2Driver() = default;

@@ -37,8 +37,9 @@ class RobotWatch {
   void Told(const motion::VelocityCommand& command);
 
   struct Trouble {
-    // What stands in the way is no failure, and found by ObstacleWatch.
-    enum class Part { kCamera, kOdometry, kScan, kRange, kBase, kObstacle };
+    // What stands in the way is no failure, and found by ObstacleWatch; that several publish one
+    // topic, by who hears them.
+    enum class Part { kCamera, kOdometry, kScan, kRange, kBase, kObstacle, kCrowd };
     Part part = Part::kCamera;
     std::string what;        // one line for people
     std::size_t sensor = 0;  // of a range

@@ -119,6 +119,14 @@ void Ros2Device::State::SlowDown() {
 // Also when the loop that drives does not come back: a command is good for sensor_timeout.
 void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
   trouble = watch.Check(now);
+  if (const std::string topic = driver->crowded(); !topic.empty()) {
+    trouble = {
+        RobotWatch::Trouble::Part::kCrowd,
+        fmt::format("several publish {}, and which is this robot's cannot be told: two "
+                    "robots in one namespace, or a driver that was left over; end the other, "
+                    "or give each robot a namespace of its own",
+                    topic)};
+  }
   if (!trouble && drove && driver->peers().bases == 0) {
     trouble = {RobotWatch::Trouble::Part::kBase, NobodyListens(run.topics, driver->peers())};
   }

@@ -18,6 +18,7 @@ std::string TroubleText(const dds::Ros2Options& topics, const RobotWatch::Troubl
     case Part::kRange:
       return fmt::format("range {}: {}", topics.RangeTopic(trouble.sensor), trouble.what);
     case Part::kObstacle:
+    case Part::kCrowd:
       return trouble.what;
     case Part::kBase:
       break;

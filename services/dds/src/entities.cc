@@ -200,6 +200,13 @@ Result<void> Reader::Take(std::size_t max,
   return {};
 }
 
+bool Reader::Matches(dds_instance_handle_t writer) const {
+  dds_builtintopic_endpoint_t* const found = dds_get_matched_publication_data(handle(), writer);
+  if (found == nullptr) return false;
+  dds_builtintopic_free_endpoint(found);
+  return true;
+}
+
 int Reader::matched() const {
   dds_subscription_matched_status_t status{};
   dds_get_subscription_matched_status(handle(), &status);

@@ -123,6 +123,8 @@ class Reader : public Entity {
   // only. With valid_data false only the key fields are set. At most `max` samples.
   [[nodiscard]] Result<void> Take(
       std::size_t max, const std::function<void(const void*, const dds_sample_info_t&)>& use);
+  // Whether that writer is still there.
+  [[nodiscard]] bool Matches(dds_instance_handle_t writer) const;
   // Writers from which it gets samples.
   [[nodiscard]] int matched() const;
   // The policy for which a writer was last refused; empty: none was.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cctype>
 #include <cstdlib>
+#include <mutex>
 #include <utility>
 
 #include "services/dds/src/domain/cyclone_uri.h"
@@ -11,6 +12,7 @@
 #include "services/dds/src/domain/user_data.h"
 #include "services/dds/src/entities.h"
 #include "services/dds/src/ros2/ros2_network.h"
+#include "services/dds/src/ros2/ros2_speaker.h"
 #include "services/dds/src/ros2/ros2_wire.h"
 
 namespace trailcast::dds {
@@ -175,10 +177,18 @@ class Ros2DdsDriver final : public Ros2Driver {
   std::vector<Ros2Sensed> Take(std::chrono::milliseconds max_wait) override;
   Result<void> Publish(const Ros2Command& command) override;
   [[nodiscard]] Peers peers() const override;
+  [[nodiscard]] std::string crowded() const override;
 
  private:
+  // Whether a sample is to be passed on.
+  [[nodiscard]] bool Counts(Ros2Speaker& speaker, const Reader& reader,
+                            const dds_sample_info_t& info);
+
   DriverState state_;
   std::atomic<int> unusable_odometry_ = 0;
+  mutable std::mutex mutex_;  // guards the next two
+  Ros2Speaker image_speaker_;
+  Ros2Speaker odometry_speaker_;
 };
 
 }  // namespace
@@ -238,6 +248,23 @@ Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options)
                   std::move(battery), std::move(others_commands), *std::move(command)});
 }
 
+bool Ros2DdsDriver::Counts(Ros2Speaker& speaker, const Reader& reader,
+                           const dds_sample_info_t& info) {
+  if (!info.valid_data) return false;
+  const std::scoped_lock lock(mutex_);
+  return speaker.Hear(static_cast<std::int64_t>(info.publication_handle),
+                      std::chrono::steady_clock::now(), [&](std::int64_t writer) {
+                        return reader.Matches(static_cast<dds_instance_handle_t>(writer));
+                      });
+}
+
+std::string Ros2DdsDriver::crowded() const {
+  const std::scoped_lock lock(mutex_);
+  const auto now = std::chrono::steady_clock::now();
+  if (image_speaker_.crowded(now)) return state_.options.ImageTopic();
+  return odometry_speaker_.crowded(now) ? state_.options.OdometryTopic() : std::string();
+}
+
 std::vector<Ros2Sensed> Ros2DdsDriver::Take(std::chrono::milliseconds max_wait) {
   std::vector<Ros2Sensed> sensed;
   DriverState& s = state_;
@@ -246,7 +273,7 @@ std::vector<Ros2Sensed> Ros2DdsDriver::Take(std::chrono::milliseconds max_wait) 
   if (s.odometry) {
     (void)s.odometry->Take(kMaxSamplesPerTake,
                            [&](const void* sample, const dds_sample_info_t& info) {
-                             if (!info.valid_data) return;
+                             if (!Counts(odometry_speaker_, *s.odometry, info)) return;
                              if (auto pose = OdometryFromWire(sample)) {
                                sensed.emplace_back(*pose);
                              } else {
@@ -289,7 +316,7 @@ std::vector<Ros2Sensed> Ros2DdsDriver::Take(std::chrono::milliseconds max_wait) 
         });
   }
   (void)s.image.Take(kMaxSamplesPerTake, [&](const void* sample, const dds_sample_info_t& info) {
-    if (info.valid_data) {
+    if (Counts(image_speaker_, s.image, info)) {
       sensed.push_back(ImageFromWire(sample, s.options.image_is_compressed()));
     }
   });
