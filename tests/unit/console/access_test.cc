@@ -14,6 +14,7 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/users/secret.h"
 #include "tests/support/temp_dir.h"
+#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -66,6 +67,7 @@ class AccessTest : public testing::Test {
   }
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
+    ExpectAsDescribed(client);
     client.set_read_timeout(20);
     return client;
   }
@@ -263,6 +265,60 @@ TEST(Rights, ThePagesOwnFilesAloneAreForAnybody) {
   }
   for (const char* path : {"/plan.png", "/page.js/more", "/index.html", "//", ""}) {
     EXPECT_EQ(RightTo("GET", path).needs, Role::kLook) << path;
+  }
+}
+
+// What of a line's "{key: value, key: value}" has no colon: a text without quotes, cut at its
+// comma.
+std::vector<std::string> CutIn(const std::string& line) {
+  struct Map {
+    bool is_map = false;  // else a list
+    std::size_t from = 0;
+    bool has_key = false;
+  };
+  std::vector<Map> open;
+  std::vector<std::string> cut;
+  char quote = '\0';
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    const std::string_view before = std::string_view(line).substr(0, i);
+    const bool begins_value = before.ends_with(": ") || before.ends_with("- ") ||
+                              before.ends_with(", ") || before.ends_with("[") ||
+                              before.ends_with("{");
+    if (quote != '\0') {
+      if (c == quote) quote = '\0';
+    } else if (begins_value && (c == '\'' || c == '"')) {
+      quote = c;
+    } else if (begins_value && (c == '{' || c == '[')) {
+      open.push_back({c == '{', i + 1, false});
+    } else if (open.empty()) {
+      continue;
+    } else if (c == ':') {
+      open.back().has_key = true;
+    } else if (c == ',' || c == '}' || c == ']') {
+      Map& map = open.back();
+      if (map.is_map && !map.has_key) cut.push_back(line.substr(map.from, i - map.from));
+      map.from = i + 1;
+      map.has_key = false;
+      if (c != ',') open.pop_back();
+    }
+  }
+  return cut;
+}
+
+TEST(ApiDescription, NoTextIsCutAtAComma) {
+  EXPECT_THAT(CutIn("a: {description: 'b, c', enum: [d, e], f: {g: h}}"), testing::IsEmpty());
+  EXPECT_THAT(CutIn("a: {type: b, description: c, or d}"), testing::ElementsAre(" or d"));
+  for (const File& file : Files()) {
+    if (std::string(file.path) != "/api/openapi.yaml") continue;
+    std::istringstream lines{std::string(file.bytes)};
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      EXPECT_THAT(CutIn(line), testing::IsEmpty())
+          << "openapi.yaml, line " << number << ": put the text into quotes";
+    }
+    EXPECT_GT(number, 100);
   }
 }
 

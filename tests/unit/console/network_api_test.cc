@@ -16,6 +16,7 @@
 #include "services/fleet/routes/route_export.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/temp_dir.h"
+#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -73,6 +74,7 @@ class NetworkApiTest : public testing::Test {
   }
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
+    ExpectAsDescribed(client);
     client.set_read_timeout(60);
     return client;
   }

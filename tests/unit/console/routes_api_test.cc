@@ -17,6 +17,7 @@
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/walk_frames.h"
+#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -115,6 +116,7 @@ class RoutesApiTest : public testing::Test {
   }
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
+    ExpectAsDescribed(client);
     client.set_read_timeout(20);
     return client;
   }

@@ -17,6 +17,7 @@
 #include "tests/support/sample_run.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/walk_frames.h"
+#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -57,6 +58,7 @@ class RunsTest : public testing::Test {
   };
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
+    ExpectAsDescribed(client);
     client.set_read_timeout(30);
     return client;
   }

@@ -18,6 +18,7 @@
 #include "tests/support/keeper_thread.h"
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
+#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -48,6 +49,7 @@ class TransfersTest : public testing::Test {
 
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
+    ExpectAsDescribed(client);
     client.set_read_timeout(20);
     return client;
   }

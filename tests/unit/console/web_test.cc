@@ -16,6 +16,7 @@
 #include "tests/support/await.h"
 #include "tests/support/hostile_client.h"
 #include "tests/support/temp_dir.h"
+#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -28,6 +29,7 @@ class WebTest : public testing::Test {
  protected:
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
+    ExpectAsDescribed(client);
     client.set_read_timeout(20);
     return client;
   }
@@ -84,8 +86,6 @@ TEST_F(WebTest, RefusesOtherHostsAndOtherPages) {
   EXPECT_EQ(Client().Get("/api/missions")->status, 503) << "no server";
 }
 
-TEST_F(WebTest, ARobotThatTeachesIsDrivenByOneAtATime) {
-  const auto robot = bus_.Open(program::WithAgents(exchange::TeachingTopics()));
 // In whatever form a client may send it.
 TEST_F(WebTest, WhatMakesARobotStandIsObeyedWhateverComesWithIt) {
   const auto robot = bus_.Open(program::WithAgents(exchange::OnDutyTopics()));
@@ -167,6 +167,8 @@ TEST_F(WebTest, WhatMakesARobotStandIsObeyedWhateverComesWithIt) {
   answering.join();
 }
 
+TEST_F(WebTest, ARobotThatTeachesIsDrivenByOneAtATime) {
+  const auto robot = bus_.Open(program::WithAgents(exchange::TeachingTopics()));
   exchange::AgentStatus status;
   status.agent = AgentId("robot1");
   status.role = exchange::AgentRole::kFollower;
