@@ -15,6 +15,11 @@ bool McapChannels::Take(Opcode opcode, std::span<const std::uint8_t> content) {
   topic.name = std::move(channel->topic);
   topic.type = type == types_.end() ? std::string() : type->second;
   topic.encoding = std::move(channel->encoding);
+  if (channel->schema != 0 && type == types_.end()) {
+    without_schema_.insert(channel->id);
+  } else {
+    without_schema_.erase(channel->id);
+  }
   return true;
 }
 
@@ -23,9 +28,19 @@ const Topic* McapChannels::Find(std::uint16_t channel) const {
   return found == channels_.end() ? nullptr : &found->second;
 }
 
-void McapChannels::Count(std::uint16_t channel, std::uint64_t messages) {
+bool McapChannels::Count(std::uint16_t channel, std::uint64_t messages) {
   const auto found = channels_.find(channel);
-  if (found != channels_.end()) found->second.messages += messages;
+  if (found == channels_.end()) return false;
+  found->second.messages += messages;
+  return true;
+}
+
+std::uint64_t McapChannels::Counted(const Topic& topic) const {
+  std::uint64_t messages = 0;
+  for (const auto& [id, one] : channels_) {
+    if (one.name == topic.name && one.type == topic.type) messages += one.messages;
+  }
+  return messages;
 }
 
 std::vector<Topic> McapChannels::Topics() const {

@@ -33,6 +33,19 @@ std::optional<Record> TakeRecord(std::span<const std::uint8_t>& bytes) {
   return record;
 }
 
+// Counts the messages of all channels. False: some channel, its schema or its messages are not
+// described, and only the file itself says what it holds. Writers may leave out of a summary
+// whatever they like.
+bool Explains(McapChannels& channels, const McapStatistics& statistics) {
+  std::uint64_t messages = 0;
+  for (const auto& count : statistics.counts) {
+    if (!channels.Count(count.channel, count.messages)) return false;
+    messages += count.messages;
+  }
+  return channels.HasAllSchemas() && channels.size() == statistics.channels &&
+         messages == statistics.messages;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<McapFile>> McapFile::Open(const std::filesystem::path& file) {
@@ -58,10 +71,19 @@ Result<Bytes> McapFile::ReadAt(std::uint64_t at, std::uint64_t count) {
 }
 
 void McapFile::NoteDamageAt(const std::string& what) {
+  damaged_ = true;
   NoteDamage(fmt::format("at byte {}: {}", record_, what));
 }
 
-// The list of contents at the file's end, where there is one.
+// Where the file lists more of the topic than there was, and nothing that was damaged tells why.
+void McapFile::NoteLacking() {
+  const std::uint64_t listed = channels_.Counted(topic_);
+  if (damaged_ || from_ns_ != 0 || given_ >= listed) return;
+  NoteDamage(fmt::format("its list of contents has {} messages of {}, of which {} are there",
+                         listed, topic_.name, given_));
+}
+
+// The list of contents at the file's end, where there is one that is whole.
 std::optional<Contents> McapFile::ReadSummary() {
   const std::uint64_t ending = kRecordHeadBytes + kFooterBytes + kMcapMagic.size();
   if (size_ < kMcapMagic.size() + ending) return std::nullopt;
@@ -73,21 +95,25 @@ std::optional<Contents> McapFile::ReadSummary() {
   std::span<const std::uint8_t> left(*tail);
   const auto footer = TakeRecord(left);
   if (!footer || footer->opcode != Opcode::kFooter) return std::nullopt;
-  const std::uint64_t begins = ByteReader(footer->content).Take<std::uint64_t>();
+  ByteReader fields(footer->content);
+  const auto begins = fields.Take<std::uint64_t>();
+  (void)fields.Take<std::uint64_t>();  // where the table of the summary's groups begins
+  const auto crc = fields.Take<std::uint32_t>();
   if (begins < kMcapMagic.size() || begins >= footer_at || footer_at - begins > kMostSummaryBytes) {
     return std::nullopt;
   }
-  const auto summary = ReadAt(begins, footer_at - begins);
-  if (!summary) return std::nullopt;
+  // The checksum, 0 where there is none, is of all until its own field.
+  const std::uint64_t checked = size_ - kMcapMagic.size() - sizeof(crc) - begins;
+  const auto summary = ReadAt(begins, checked);
+  if (!summary || (crc != 0 && Crc32(*summary) != crc)) return std::nullopt;
   McapChannels channels;
   std::optional<McapStatistics> statistics;
-  left = *summary;
+  left = std::span(*summary).first(static_cast<std::size_t>(footer_at - begins));
   while (const auto record = TakeRecord(left)) {
     if (channels.Take(record->opcode, record->content)) continue;
     if (record->opcode == Opcode::kStatistics) statistics = ParseStatistics(record->content);
   }
-  if (!left.empty() || !statistics || channels.empty()) return std::nullopt;
-  for (const auto& count : statistics->counts) channels.Count(count.channel, count.messages);
+  if (!left.empty() || !statistics || !Explains(channels, *statistics)) return std::nullopt;
   channels_ = channels;
   return Contents{channels.Topics(), Time(statistics->message_start_ns),
                   Time(statistics->message_end_ns)};
@@ -95,7 +121,7 @@ std::optional<Contents> McapFile::ReadSummary() {
 
 Result<Contents> McapFile::Survey(const Bag::Tell& tell) {
   if (auto contents = ReadSummary()) return *contents;
-  tell(fmt::format("{} has no list of contents (was it cut off?): reading all of it",
+  tell(fmt::format("{} has no whole list of contents (was it cut off?): reading all of it",
                    file_.string()));
   Begin({}, {});
   std::optional<std::chrono::nanoseconds> first;
@@ -117,6 +143,8 @@ void McapFile::Begin(const Topic& topic, std::chrono::nanoseconds from) {
   at_ = kMcapMagic.size();
   ended_ = false;
   unpacked_ = 0;
+  given_ = 0;
+  damaged_ = false;
   in_chunk_ = {};
 }
 
@@ -235,7 +263,11 @@ Result<std::optional<McapMessage>> McapFile::NextOf(Wanted wanted) {
 Result<std::optional<Message>> McapFile::Next() {
   const auto message = NextOf(&McapFile::IsOfTopic);
   if (!message) return tl::unexpected(message.error());
-  if (!*message) return std::nullopt;
+  if (!*message) {
+    NoteLacking();
+    return std::nullopt;
+  }
+  ++given_;
   return Message{Time((*message)->log_time_ns), (*message)->bytes};
 }
 

@@ -10,8 +10,8 @@
 namespace trailcast::bag {
 
 // An MCAP file of any writer: messages in chunks or by themselves, with a summary or, cut off,
-// without. A chunk whose checksum or compression is wrong is left out; of one that is cut off, the
-// beginning is read.
+// without. A summary that does not describe all that it counts counts for nothing. A chunk whose
+// checksum or compression is wrong is left out; of one that is cut off, the beginning is read.
 class McapFile final : public BagFile {
  public:
   [[nodiscard]] static Result<std::unique_ptr<McapFile>> Open(const std::filesystem::path& file);
@@ -37,6 +37,7 @@ class McapFile final : public BagFile {
   [[nodiscard]] Result<bool> ReadRecord();
   void OpenChunk(std::span<const std::uint8_t> content, bool cut_off);
   void NoteDamageAt(const std::string& what);
+  void NoteLacking();
 
   std::ifstream stream_;
   std::filesystem::path file_;
@@ -45,6 +46,8 @@ class McapFile final : public BagFile {
   std::uint64_t record_ = 0;              // of the one that is read
   bool ended_ = false;
   std::uint64_t unpacked_ = 0;  // bytes, since it began
+  std::uint64_t given_ = 0;     // messages, since it began
+  bool damaged_ = false;        // something that was read since it began
   McapChannels channels_;
   Topic topic_;
   std::uint64_t from_ns_ = 0;

@@ -64,8 +64,10 @@ std::optional<McapChunk> ParseChunk(std::span<const std::uint8_t> content) {
 std::optional<McapStatistics> ParseStatistics(std::span<const std::uint8_t> content) {
   ByteReader reader(content);
   McapStatistics statistics;
-  // Numbers of messages, schemas, channels, attachments, metadata, chunks.
-  (void)reader.TakeBytes(8 + 2 + 4 + 4 + 4 + 4);
+  statistics.messages = reader.Take<std::uint64_t>();
+  (void)reader.Take<std::uint16_t>();  // schemas
+  statistics.channels = reader.Take<std::uint32_t>();
+  (void)reader.TakeBytes(4 + 4 + 4);  // numbers of attachments, metadata, chunks
   statistics.message_start_ns = reader.Take<std::uint64_t>();
   statistics.message_end_ns = reader.Take<std::uint64_t>();
   ByteReader counts(reader.TakeBytes(reader.Take<std::uint32_t>()));

@@ -60,6 +60,8 @@ struct McapChunk {
 };
 
 struct McapStatistics {
+  std::uint64_t messages = 0;
+  std::uint32_t channels = 0;
   std::uint64_t message_start_ns = 0;
   std::uint64_t message_end_ns = 0;
   struct Count {

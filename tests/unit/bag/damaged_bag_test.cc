@@ -14,6 +14,7 @@ namespace {
 
 using std::chrono::milliseconds;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -57,7 +58,7 @@ class DamagedBag : public testing::Test {
     test::WriteBytes(folder_ / "damaged", file);
     auto bag = Bag::Open(folder_ / "damaged", [](const std::string&) {});
     if (!bag) return -1;
-    damage_ = (*bag)->damage();
+    listed_ = (*bag)->topics().empty() ? 0 : (*bag)->topics().front().messages;
     int last = -1;
     int count = 0;
     for (const Read& read : ReadAll(**bag, kTopic)) {
@@ -72,8 +73,56 @@ class DamagedBag : public testing::Test {
   }
 
   test::TempDir folder_;
+  std::uint64_t listed_ = 0;  // messages, before they are read
   std::vector<std::string> damage_;
 };
+
+// Where the content of the first such record of the list of contents begins.
+std::size_t InSummary(const Bytes& file, std::uint8_t opcode) {
+  const auto number = [&](std::size_t at) {
+    std::size_t value = 0;
+    for (std::size_t i = 8; i > 0; --i) value = value << 8U | file.at(at + i - 1);
+    return value;
+  };
+  constexpr std::size_t kFooterContent = 20;
+  constexpr std::size_t kMagic = 8;
+  constexpr std::size_t kHead = 9;
+  std::size_t at = number(file.size() - kMagic - kFooterContent);
+  while (file.at(at) != opcode) at += kHead + number(at + 1);
+  return at + kHead;
+}
+constexpr std::uint8_t kChannelRecord = 4;
+constexpr std::uint8_t kStatisticsRecord = 11;
+
+TEST_F(DamagedBag, OfAListOfContentsThatLacksASchemaNothingIsBelieved) {
+  Bytes file = Mcap(Compression::kLz4);
+  file[InSummary(file, kChannelRecord) + 2] += 40;  // the channel's schema, after its own number
+  EXPECT_EQ(CountWhole(file), kMessages);
+  EXPECT_THAT(damage_, IsEmpty());
+}
+
+TEST_F(DamagedBag, OfAListOfContentsThatDoesNotCountAllNothingIsBelieved) {
+  const Bytes whole = Mcap(Compression::kLz4);
+  const std::size_t statistics = InSummary(whole, kStatisticsRecord);
+  // The numbers of all messages and of channels, and the first of the numbers of messages by
+  // channel, after its channel: see https://mcap.dev/spec, Statistics.
+  for (const std::size_t place : {std::size_t{0}, std::size_t{10}, std::size_t{46 + 2}}) {
+    Bytes file = whole;
+    ++file[statistics + place];
+    EXPECT_EQ(CountWhole(file), kMessages) << place;
+    EXPECT_EQ(listed_, kMessages) << place;
+    EXPECT_THAT(damage_, IsEmpty()) << place;
+  }
+}
+
+TEST_F(DamagedBag, ThatAListOfContentsHasMoreThanThereIsIsTold) {
+  Bytes file = Mcap(Compression::kLz4);
+  const std::size_t statistics = InSummary(file, kStatisticsRecord);
+  file[statistics] += 5;
+  file[statistics + 46 + 2] += 5;
+  EXPECT_EQ(CountWhole(file), kMessages);
+  EXPECT_THAT(damage_, ElementsAre(HasSubstr("has 65 messages of /camera, of which 60 are there")));
+}
 
 class CutMcap : public DamagedBag, public testing::WithParamInterface<Compression> {};
 
