@@ -59,7 +59,8 @@ class Bag {
   // When the last message of all was recorded.
   [[nodiscard]] std::chrono::nanoseconds last_at() const;
 
-  // What was found damaged so far, a line each: file, place, what. At most kMostDamage of them.
+  // What was found damaged so far, or otherwise than a folder's metadata.yaml has it, a line each:
+  // file, place, what. At most kMostDamage of them.
   [[nodiscard]] const std::vector<std::string>& damage() const { return damage_; }
   static constexpr std::size_t kMostDamage = 20;
 
@@ -74,6 +75,7 @@ class Bag {
                    std::optional<std::uint64_t> most_growth);
   void Collect();
   void NoteDamage(Part& part);
+  void Note(std::string line);
 
   std::vector<Part> parts_;  // by the time of their first message
   std::vector<Topic> topics_;

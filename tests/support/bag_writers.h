@@ -41,16 +41,20 @@ class Db3Writer final : public BagWriter {
   explicit Db3Writer(const std::filesystem::path& file, bool zstd = false)
       : db_(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE), zstd_(zstd) {
     db_.exec("PRAGMA synchronous = OFF");
-    db_.exec(
-        "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
-        "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL)");
-    db_.exec(
-        "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp "
-        "INTEGER NOT NULL, data BLOB NOT NULL)");
-    db_.exec("CREATE INDEX timestamp_idx ON messages (timestamp ASC)");
+    MakeTables(db_);
     db_.exec("BEGIN");
   }
   ~Db3Writer() override { db_.exec("COMMIT"); }
+
+  static void MakeTables(SQLite::Database& db) {
+    db.exec(
+        "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
+        "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL)");
+    db.exec(
+        "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp "
+        "INTEGER NOT NULL, data BLOB NOT NULL)");
+    db.exec("CREATE INDEX timestamp_idx ON messages (timestamp ASC)");
+  }
 
   void Put(const std::string& topic, const std::string& type, std::chrono::nanoseconds logged_at,
            const bag::Bytes& message) override {

@@ -79,17 +79,29 @@ Result<std::unique_ptr<Bag>> Bag::Open(const fs::path& file_or_folder, const Tel
   const auto parts = FindParts(file_or_folder);
   if (!parts) return tl::unexpected(parts.error());
   std::unique_ptr<Bag> bag(new Bag());
-  for (const std::string& name : parts->missing) {
-    bag->damage_.push_back(name + ": listed in metadata.yaml, but not there");
-  }
+  for (const std::string& difference : parts->differences) bag->Note(difference);
   for (const fs::path& file : parts->files) {
     auto added = bag->Add(file, tell, most_growth);
-    if (!added) return tl::unexpected(added.error());
+    if (added) continue;
+    const ErrorCode code = added.error().code;
+    const bool its_own = code == ErrorCode::kCorrupt || code == ErrorCode::kInvalidArgument;
+    if (!its_own || parts->files.size() == 1) return tl::unexpected(added.error());
+    bag->Note(added.error().message);
+  }
+  if (bag->parts_.empty()) {
+    return Fail(ErrorCode::kInvalidArgument, "no file of {} can be read: {}",
+                file_or_folder.string(), fmt::join(bag->damage_, "; "));
   }
   std::stable_sort(bag->parts_.begin(), bag->parts_.end(), [](const Part& a, const Part& b) {
     return a.contents.first_at < b.contents.first_at;
   });
   bag->Collect();
+  std::uint64_t messages = 0;
+  for (const Topic& topic : bag->topics_) messages += topic.messages;
+  if (bag->damage_.empty() && parts->messages.value_or(0) > messages) {
+    bag->Note(fmt::format("metadata.yaml counts {} messages, of which {} are there",
+                          *parts->messages, messages));
+  }
   return bag;
 }
 
@@ -101,7 +113,7 @@ Result<fs::path> Bag::Unpack(Part& part, const Tell& tell) {
   if (!plain) return plain;
   const auto whole = DecompressZstdFile(part.name, *plain);
   if (!whole) return tl::unexpected(whole.error());
-  if (!*whole) damage_.push_back(part.name.filename().string() + ": its compression breaks off");
+  if (!*whole) Note(part.name.filename().string() + ": its compression breaks off");
   return plain;
 }
 
@@ -196,10 +208,13 @@ Result<std::optional<Message>> Bag::Next() {
 // Each once, however often the file is read.
 void Bag::NoteDamage(Part& part) {
   for (const std::string& what : part.file->TakeDamage()) {
-    std::string line = part.name.filename().string() + ": " + what;
-    const bool known = std::find(damage_.begin(), damage_.end(), line) != damage_.end();
-    if (!known && damage_.size() < kMostDamage) damage_.push_back(std::move(line));
+    Note(part.name.filename().string() + ": " + what);
   }
+}
+
+void Bag::Note(std::string line) {
+  const bool known = std::find(damage_.begin(), damage_.end(), line) != damage_.end();
+  if (!known && damage_.size() < kMostDamage) damage_.push_back(std::move(line));
 }
 
 }  // namespace trailcast::bag

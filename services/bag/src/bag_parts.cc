@@ -1,8 +1,9 @@
 #include "services/bag/src/bag_parts.h"
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
-#include <optional>
+#include <set>
 #include <string>
 
 namespace trailcast::bag {
@@ -12,11 +13,24 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostLines = 1'000'000;
 
+struct Metadata {
+  std::vector<std::string> files;
+  std::optional<std::uint64_t> messages;
+};
+
+std::optional<std::uint64_t> NumberIn(const std::string& text) {
+  std::uint64_t number = 0;
+  const std::size_t from = std::min(text.find_first_not_of(' '), text.size());
+  const auto [end, error] = std::from_chars(text.data() + from, text.data() + text.size(), number);
+  return error == std::errc() ? std::optional(number) : std::nullopt;
+}
+
 // Below "relative_file_paths:" one name a line, as "    - drive_0.db3". Some versions put the
-// folder's name before it.
-std::vector<std::string> ListedFiles(const fs::path& metadata) {
-  std::vector<std::string> names;
-  std::ifstream stream(metadata);
+// folder's name before it. The first "message_count:" is that of all messages.
+Metadata ReadMetadata(const fs::path& file) {
+  const std::string count = "message_count:";
+  Metadata metadata;
+  std::ifstream stream(file);
   bool listing = false;
   std::string line;
   for (std::size_t i = 0; i < kMostLines && std::getline(stream, line); ++i) {
@@ -27,17 +41,36 @@ std::vector<std::string> ListedFiles(const fs::path& metadata) {
                               [](char c) { return c == '"' || c == '\'' || c == '\r'; }),
                text.end());
     if (listing && text.rfind("- ", 0) == 0) {
-      names.push_back(fs::path(text.substr(2)).filename().string());
-    } else {
-      listing = text.rfind("relative_file_paths:", 0) == 0;
+      metadata.files.push_back(fs::path(text.substr(2)).filename().string());
+      continue;
+    }
+    listing = text.rfind("relative_file_paths:", 0) == 0;
+    if (!metadata.messages && text.rfind(count, 0) == 0) {
+      metadata.messages = NumberIn(text.substr(count.size()));
     }
   }
-  return names;
+  return metadata;
 }
 
+// Without what says that it is compressed.
+fs::path PlainName(const fs::path& file) {
+  return file.extension() == ".zstd" ? file.stem() : file.filename();
+}
+
+// macOS keeps what it knows of a file in a hidden one beside it, of the same ending.
 bool IsPart(const fs::path& file) {
-  const fs::path name = file.extension() == ".zstd" ? file.stem() : file.filename();
-  return name.extension() == ".db3" || name.extension() == ".mcap";
+  const fs::path name = PlainName(file);
+  return name.string().front() != '.' &&
+         (name.extension() == ".db3" || name.extension() == ".mcap");
+}
+
+// "drive" of "drive_12.db3", as recorders number the files of one recording.
+std::string SeriesOf(const fs::path& file) {
+  const std::string stem = PlainName(file).stem().string();
+  const std::size_t number = stem.find_last_not_of("0123456789");
+  const bool numbered =
+      number != std::string::npos && number + 1 < stem.size() && stem[number] == '_';
+  return numbered ? stem.substr(0, number) : stem;
 }
 
 // Players unpack files beside themselves.
@@ -49,24 +82,47 @@ std::optional<fs::path> PackedOrNot(const fs::path& file) {
   return fs::exists(unpacked, unknown) ? std::optional(unpacked) : std::nullopt;
 }
 
-BagParts OfFolder(const fs::path& folder) {
-  BagParts parts;
-  const auto names = ListedFiles(folder / "metadata.yaml");
-  for (const std::string& name : names) {
-    if (const auto file = PackedOrNot(folder / name)) {
-      parts.files.push_back(*file);
-    } else {
-      parts.missing.push_back(name);
-    }
-  }
-  if (!names.empty()) return parts;
+// All recordings there are, each once.
+std::vector<fs::path> RecordingsIn(const fs::path& folder) {
+  std::vector<fs::path> files;
   std::error_code failed;
   for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
        entry.increment(failed)) {
     const fs::path& file = entry->path();
     const bool packed = file.extension() == ".zstd";
     const bool twice = packed && fs::exists(file.parent_path() / file.stem());
-    if (IsPart(file) && !twice) parts.files.push_back(file);
+    if (IsPart(file) && !twice) files.push_back(file);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Metadata is written when a recording ends: it may be older than the files, or name them as they
+// were called then. Where listed files are missing, those that are not listed are theirs.
+BagParts OfFolder(const fs::path& folder) {
+  BagParts parts;
+  const Metadata metadata = ReadMetadata(folder / "metadata.yaml");
+  parts.messages = metadata.messages;
+  std::set<fs::path> listed;
+  std::set<std::string> series;
+  for (const std::string& name : metadata.files) {
+    listed.insert(PlainName(name));
+    series.insert(SeriesOf(name));
+    if (const auto file = PackedOrNot(folder / name)) {
+      parts.files.push_back(*file);
+    } else {
+      parts.differences.push_back(name + ": listed in metadata.yaml, but not there");
+    }
+  }
+  const bool lacking = !parts.differences.empty();
+  for (const fs::path& file : RecordingsIn(folder)) {
+    if (listed.contains(PlainName(file))) continue;
+    const bool taken = metadata.files.empty() || lacking || series.contains(SeriesOf(file));
+    if (taken) parts.files.push_back(file);
+    if (metadata.files.empty()) continue;
+    parts.differences.push_back(
+        fmt::format("{}: not listed in metadata.yaml, {}", file.filename().string(),
+                    taken ? "but read" : "and of another name than what is: left out"));
   }
   return parts;
 }
@@ -81,13 +137,13 @@ Result<BagParts> FindParts(const fs::path& file_or_folder) {
                 "recording",
                 file_or_folder.string());
   }
-  if (!fs::is_directory(file_or_folder, failed)) return BagParts{{file_or_folder}, {}};
+  if (!fs::is_directory(file_or_folder, failed)) return BagParts{{file_or_folder}, {}, {}};
   BagParts parts = OfFolder(file_or_folder);
   if (parts.files.empty()) {
     return Fail(ErrorCode::kNotFound,
                 "the folder {} has no recording: expected files ending in .db3 or .mcap{}",
                 file_or_folder.string(),
-                parts.missing.empty() ? "" : ", as its metadata.yaml lists them");
+                parts.differences.empty() ? "" : ", as its metadata.yaml lists them");
   }
   return parts;
 }

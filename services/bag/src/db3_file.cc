@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace trailcast::bag {
 namespace {
@@ -18,8 +19,7 @@ bool IsDamage(const SQLite::Exception& exception) {
   return code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_TOOBIG;
 }
 
-// As a URI whose file nobody else writes, so that nothing is written beside it either.
-std::string Immutable(const std::filesystem::path& file) {
+std::string Uri(const std::filesystem::path& file) {
   std::string uri = "file:";
   for (const char c : file.string()) {
     if (c == '%' || c == '?' || c == '#') {
@@ -28,11 +28,24 @@ std::string Immutable(const std::filesystem::path& file) {
       uri += c;
     }
   }
-  return uri + "?immutable=1";
+  return uri;
 }
 
-std::unique_ptr<SQLite::Database> OpenWith(const std::string& name) {
+// How a file is opened, by what is beside it and what may be written there.
+enum class Way {
+  kShared,  // with its log, together with a recorder that still writes
+  // With its log, where nothing can be written, as on a read-only disk: no file of shared memory,
+  // which only one who has the file for himself can do without, and no locks.
+  kAlone,
+  kWithoutLog,  // as one that nobody writes, so that nothing is written beside it either
+};
+
+std::unique_ptr<SQLite::Database> OpenWith(const std::filesystem::path& file, Way way) {
+  std::string name = Uri(file);
+  if (way == Way::kAlone) name += "?vfs=unix-none";
+  if (way == Way::kWithoutLog) name += "?immutable=1";
   auto db = std::make_unique<SQLite::Database>(name, SQLite::OPEN_READONLY | SQLite::OPEN_URI);
+  if (way == Way::kAlone) db->exec("PRAGMA locking_mode = EXCLUSIVE");
   sqlite3_limit(db->getHandle(), SQLITE_LIMIT_LENGTH, static_cast<int>(kMostMessageBytes));
   db->exec("PRAGMA trusted_schema = OFF");
   db->exec("PRAGMA cell_size_check = ON");
@@ -71,18 +84,20 @@ Result<std::unique_ptr<Db3File>> Db3File::Open(const std::filesystem::path& file
   const std::filesystem::path log = file.string() + "-wal";
   const bool has_log =
       std::filesystem::exists(log, unknown) && std::filesystem::file_size(log, unknown) > 0;
-  for (const bool immutable : {!has_log, true}) {
+  std::vector<Way> ways{Way::kWithoutLog};
+  if (has_log) ways = {Way::kShared, Way::kAlone, Way::kWithoutLog};
+  for (const Way way : ways) {
     try {
-      auto db = OpenWith(immutable ? Immutable(file) : file.string());
+      auto db = OpenWith(file, way);
       if (!HasTables(*db)) {
         return tl::unexpected(Unreadable(file, "it has no tables 'topics' and 'messages'"));
       }
       auto topics = ReadTopics(*db);
       std::unique_ptr<Db3File> opened(new Db3File(std::move(db), std::move(topics)));
-      if (has_log && immutable) opened->NoteDamage(kNoLog);
+      if (has_log && way == Way::kWithoutLog) opened->NoteDamage(kNoLog);
       return opened;
     } catch (const SQLite::Exception& exception) {
-      if (immutable) return tl::unexpected(Unreadable(file, exception.what()));
+      if (way == ways.back()) return tl::unexpected(Unreadable(file, exception.what()));
     }
   }
   return tl::unexpected(Unreadable(file, "it cannot be opened"));

@@ -60,9 +60,12 @@ Result<StoreFile> StoreFile::OpenLocked(const std::filesystem::path& path) {
   const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (descriptor < 0) {
     const int error = errno;
-    return Fail(ErrorCode::kUnavailable,
-                "cannot open route store {}: {}; its folder must exist, and both be writable",
-                path.string(), Reason(error));
+    const bool there = HasContent(path);
+    return Fail(ErrorCode::kUnavailable, "cannot open route store {}: {}; {}", path.string(),
+                Reason(error),
+                there ? "copy it, and the file of its name with -wal behind where there is one, "
+                        "into a folder that can be written, and give the copy"
+                      : "its folder must exist, and be writable");
   }
   StoreFile file(path, descriptor);
   if (Result<void> locked = file.Lock(); !locked) return tl::unexpected(locked.error());

@@ -148,7 +148,62 @@ TEST(Bag, ReadsAFolderOfSeveralFilesInTheOrderOfTheirTimes) {
   const auto bag = OpenBag(folder.path());
   ASSERT_TRUE(bag);
   EXPECT_EQ(bag->topics()[0].messages, 30U);
-  ExpectRecorded(*bag, 30);
+  EXPECT_EQ(ReadAll(*bag, "/odom").size(), 30U);
+  EXPECT_THAT(bag->damage(),
+              ElementsAre(AllOf(HasSubstr("of another run.db3"), HasSubstr("left out"))));
+}
+
+// Metadata is written when a recording ends; the recorder that crashed wrote none of what came
+// after.
+TEST(Bag, FilesOfARecordingThatItsMetadataDoesNotListAreRead) {
+  const test::TempDir folder;
+  { Record(*std::make_unique<test::Db3Writer>(folder / "run_0.db3"), 0, 10); }
+  {
+    test::McapBagWriter writer(folder / "run_1.mcap", Compression::kLz4);
+    Record(writer, 10, 10);
+  }
+  std::ofstream(folder / "._run_1.mcap") << "Mac OS X";
+  std::ofstream(folder / "metadata.yaml") << "  relative_file_paths:\n    - run_0.db3\n";
+  const auto bag = OpenBag(folder.path());
+  ASSERT_TRUE(bag);
+  EXPECT_EQ(ReadAll(*bag, "/odom").size(), 20U);
+  EXPECT_THAT(bag->damage(), ElementsAre(AllOf(HasSubstr("run_1.mcap"), HasSubstr("but read"))));
+}
+
+TEST(Bag, FilesThatWereRenamedAreReadByTheirNewNames) {
+  const test::TempDir folder;
+  { Record(*std::make_unique<test::Db3Writer>(folder / "lap1.db3"), 0, 10); }
+  std::ofstream(folder / "metadata.yaml") << "  relative_file_paths:\n    - run_0.db3\n";
+  const auto bag = OpenBag(folder.path());
+  ASSERT_TRUE(bag);
+  EXPECT_EQ(ReadAll(*bag, "/odom").size(), 10U);
+  EXPECT_THAT(bag->damage(), ElementsAre(HasSubstr("run_0.db3"), HasSubstr("lap1.db3")));
+}
+
+TEST(Bag, ThatMetadataCountsMoreThanThereIsIsTold) {
+  const test::TempDir folder;
+  { Record(*std::make_unique<test::Db3Writer>(folder / "run_0.db3"), 0, 10); }
+  const auto damage_where = [&](int messages) {
+    std::ofstream(folder / "metadata.yaml")
+        << "  relative_file_paths:\n    - run_0.db3\n  message_count: " << messages
+        << "\n  topics_with_message_count:\n    - topic_metadata:\n      message_count: 900\n";
+    return OpenBag(folder.path())->damage();
+  };
+  EXPECT_THAT(damage_where(20), IsEmpty());
+  EXPECT_THAT(damage_where(21), ElementsAre(HasSubstr("counts 21 messages, of which 20")));
+}
+
+TEST(Bag, AFileOfSeveralThatIsNoRecordingIsLeftOutAndTold) {
+  const test::TempDir folder;
+  { Record(*std::make_unique<test::Db3Writer>(folder / "run_0.db3"), 0, 10); }
+  std::ofstream(folder / "run_1.db3") << "";
+  const auto bag = OpenBag(folder.path());
+  ASSERT_TRUE(bag);
+  EXPECT_EQ(ReadAll(*bag, "/odom").size(), 10U);
+  EXPECT_THAT(bag->damage(), ElementsAre(HasSubstr("run_1.db3 is no recording")));
+  std::filesystem::remove(folder / "run_0.db3");
+  std::ofstream(folder / "run_2.db3") << "";
+  EXPECT_THAT(ErrorOf(folder.path()), AllOf(HasSubstr("run_1.db3"), HasSubstr("run_2.db3")));
 }
 
 TEST(Bag, AFolderWhoseRecorderCrashedHasNoMetadata) {

@@ -1,7 +1,13 @@
 // Recordings that were cut off, or have bad bytes in them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <random>
 
 #include "services/bag/bag.h"
@@ -195,6 +201,43 @@ TEST_F(DamagedBag, ADb3FileThatWasCutGivesWhatIsWhole) {
     }
   }
   EXPECT_GT(before, kMessages / 2);
+}
+
+// Of a recorder that was killed all is in the log, which SQLite does not read without writing
+// beside it; a card may be read-only.
+TEST_F(DamagedBag, WhatIsInTheLogIsReadAlsoWhereNothingCanBeWritten) {
+  const std::filesystem::path card = folder_ / "card";
+  std::filesystem::create_directory(card);
+  {
+    SQLite::Database db((folder_ / "run.db3").string(),
+                        SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    db.exec("PRAGMA journal_mode = WAL");
+    test::Db3Writer::MakeTables(db);
+    db.exec("INSERT INTO topics VALUES(1, '/camera', 'sensor_msgs/msg/Image', 'cdr', '')");
+    db.exec("INSERT INTO messages VALUES(1, 1, 5, x'0001')");
+    for (const char* file : {"run.db3", "run.db3-wal"}) {
+      std::filesystem::copy_file(folder_ / file, card / file);
+    }
+  }
+  ASSERT_GT(std::filesystem::file_size(card / "run.db3-wal"), 0U);
+  constexpr int kCannot = 77;
+  const auto read_there = [&] {
+    if (unshare(CLONE_NEWNS) != 0 ||
+        mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        mount(card.c_str(), card.c_str(), nullptr, MS_BIND, nullptr) != 0 ||
+        mount("none", card.c_str(), nullptr, MS_REMOUNT | MS_BIND | MS_RDONLY, nullptr) != 0) {
+      return kCannot;
+    }
+    const auto bag = OpenBag(card / "run.db3");
+    return bag && ReadAll(*bag, kTopic).size() == 1 && bag->damage().empty() ? 0 : 1;
+  };
+  const pid_t child = fork();
+  if (child == 0) std::_Exit(read_there());
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == kCannot) GTEST_SKIP() << "mounts cannot be staged here";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST_F(DamagedBag, ADb3FileWithABadPageGivesTheRest) {
