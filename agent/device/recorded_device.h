@@ -19,7 +19,9 @@ struct RecordedRun {
   std::filesystem::path frame_times{};  // a CSV, t_s; empty: by the rate
 };
 
-// A run that was recorded, as fast as it can be read. What it is told to drive has no effect.
+// A run that was recorded, as fast as it can be read. Pictures that cannot be read are left out and
+// counted, as image::FrameSequence has it; those after them keep their times. What it is told to
+// drive has no effect.
 class RecordedDevice final : public RobotDevice {
  public:
   static constexpr double kDefaultRate_hz = 30.0;
@@ -34,6 +36,8 @@ class RecordedDevice final : public RobotDevice {
 
   [[nodiscard]] bool has_odometry() const { return odometry_.has_value(); }
   [[nodiscard]] double rate_hz() const { return rate_hz_; }
+  // Number of the frame that Next gave last, from 0; those that cannot be read count.
+  [[nodiscard]] int frame() const { return frame_; }
   // For people: "30 frames a second", or "frames by their own times".
   [[nodiscard]] std::string timing() const;
   [[nodiscard]] int width_px() const { return width_; }
@@ -43,7 +47,8 @@ class RecordedDevice final : public RobotDevice {
                  std::optional<OdometryFile> odometry, double rate_hz);
 
   [[nodiscard]] Result<void> ReadFrameTimes(const std::filesystem::path& file);
-  [[nodiscard]] Result<SensorTime> NextStamp();
+  [[nodiscard]] Result<SensorTime> StampOfFrame() const;
+  void TellNews();
 
   std::unique_ptr<image::FrameSequence> frames_;
   std::optional<image::GrayImage> first_;  // until it is handed out
@@ -53,7 +58,7 @@ class RecordedDevice final : public RobotDevice {
   double rate_hz_;
   std::filesystem::path times_file_;
   std::vector<SensorTime> times_;  // of the frames; empty: by the rate
-  int next_ = 0;                   // number of the next frame
+  int frame_ = 0;
 };
 
 }  // namespace trailcast::agent

@@ -6,6 +6,7 @@
 
 #include "services/base/result.h"
 #include "services/image/image.h"
+#include "services/image/picture_run.h"
 
 namespace trailcast::image {
 
@@ -20,8 +21,9 @@ struct RawPicture {
   std::span<const std::uint8_t> bytes;
 };
 
+// The next picture of a run: of 16 bits a pixel those that the run's pictures use.
 // kInvalidArgument for an encoding that is not understood (the message lists those that are), a
 // picture of no size; kCorrupt for rows that overlap or fewer bytes than the rows need.
-[[nodiscard]] Result<GrayImage> GrayFromRaw(const RawPicture& picture);
+[[nodiscard]] Result<GrayImage> GrayFromRaw(const RawPicture& picture, PictureRun& run);
 
 }  // namespace trailcast::image

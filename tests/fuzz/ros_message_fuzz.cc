@@ -11,7 +11,8 @@ namespace image = trailcast::image;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::span message(data, size);
   if (const auto read = bag::ReadImage(message)) {
-    const auto gray = image::GrayFromRaw(read->picture);
+    image::PictureRun run;
+    const auto gray = image::GrayFromRaw(read->picture, run);
     Require(!gray || gray->pixels.size() <= size, "a picture is no larger than its message");
   }
   if (const auto read = bag::ReadCompressedImage(message)) {

@@ -62,16 +62,16 @@ double LengthUntil(const std::vector<Driven>& driven, SensorTime then) {
 }
 
 struct LeftOut {
-  int unreadable = 0;
-  std::string why_unreadable;
+  image::LeftOutPictures unreadable;
   int late = 0;
   int without_odometry = 0;
   double length_m = 0.0;  // of the drive between the pictures that are not
 
   [[nodiscard]] std::string Text() const {
     std::vector<std::string> parts;
-    if (unreadable > 0) {
-      parts.push_back(fmt::format("{} that cannot be read ({})", unreadable, why_unreadable));
+    if (unreadable.count() > 0) {
+      parts.push_back(
+          fmt::format("{} that cannot be read ({})", unreadable.count(), unreadable.why()));
     }
     if (late > 0) parts.push_back(fmt::format("{} that come after later ones", late));
     if (without_odometry > 0) {
@@ -92,7 +92,7 @@ struct BagDevice::State {
   void ChooseClock();
   [[nodiscard]] SensorTime TimeOf(const RecordedClock::Message& message) const;
   [[nodiscard]] Result<RecordedTimes> TimesOf(const bag::Message& message) const;
-  [[nodiscard]] Result<image::GrayImage> Gray(const bag::Message& message) const;
+  [[nodiscard]] Result<image::GrayImage> Gray(const bag::Message& message);
   [[nodiscard]] Result<std::optional<Observation>> Next();
   [[nodiscard]] Result<std::optional<Observation>> Look(const bag::Message& message);
   void Tell(std::string what);
@@ -109,6 +109,7 @@ struct BagDevice::State {
   std::vector<Driven> driven;
   std::vector<Commanded> commands;
   std::optional<RecordedPoses> poses;
+  image::PictureRun run;
   bool has_stamps = false;
   RecordedClock pictures_clock;
   std::vector<std::optional<std::size_t>>
@@ -259,15 +260,15 @@ SensorTime BagDevice::State::TimeOf(const RecordedClock::Message& message) const
   return by_stamps ? *message.taken : message.came;
 }
 
-Result<image::GrayImage> BagDevice::State::Gray(const bag::Message& message) const {
+Result<image::GrayImage> BagDevice::State::Gray(const bag::Message& message) {
   if (topics.compressed) {
     const auto image = bag::ReadCompressedImage(message.bytes);
     if (!image) return tl::unexpected(image.error());
-    return image::DecodeGray(image->bytes, topics.image.name);
+    return image::DecodeGray(image->bytes, topics.image.name, run);
   }
   const auto image = bag::ReadImage(message.bytes);
   if (!image) return tl::unexpected(image.error());
-  return image::GrayFromRaw(image->picture);
+  return image::GrayFromRaw(image->picture, run);
 }
 
 // Nothing: it is left out.
@@ -275,7 +276,9 @@ Result<std::optional<Observation>> BagDevice::State::Look(const bag::Message& me
   ++pictures;
   const auto unreadable = [&](const Error& error) -> Result<std::optional<Observation>> {
     if (error.code != ErrorCode::kCorrupt) return Wrap(error, topics.image.name);
-    if (left_out.unreadable++ == 0) left_out.why_unreadable = error.message;
+    if (auto few = left_out.unreadable.LeaveOut(error); !few) {
+      return Wrap(few.error(), topics.image.name);
+    }
     return std::nullopt;
   };
   const auto times = TimesOf(message);
@@ -297,8 +300,10 @@ Result<std::optional<Observation>> BagDevice::State::Look(const bag::Message& me
   }
   auto gray = Gray(message);
   if (!gray) return unreadable(gray.error());
+  left_out.unreadable.Read();
   observation.image = std::move(*gray);
   observation.heard = HeardAt(times->logged_at);
+  for (const std::string& each : run.TakeNews()) spdlog::warn("{}: {}", topics.image.name, each);
   if (!begun) begun = observation.stamp;
   if (topics.odometry) {
     std::vector<std::string> jumps;

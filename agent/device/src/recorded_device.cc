@@ -18,6 +18,8 @@ RecordedDevice::RecordedDevice(std::unique_ptr<image::FrameSequence> frames, ima
       odometry_(std::move(odometry)),
       rate_hz_(rate_hz) {
   first_ = std::move(first);
+  frame_ = frames_->number();
+  TellNews();
 }
 
 Result<void> RecordedDevice::ReadFrameTimes(const std::filesystem::path& file) {
@@ -54,7 +56,8 @@ Result<std::unique_ptr<RecordedDevice>> RecordedDevice::Open(const RecordedRun& 
   auto first = (*frames)->Next();
   if (!first) return tl::unexpected(first.error());
   if (!first->has_value()) {
-    return Fail(ErrorCode::kInvalidArgument, "{} holds no frames", run.frames.string());
+    return Fail(ErrorCode::kInvalidArgument, "{} holds no frames{}{}", run.frames.string(),
+                (*frames)->number() < 0 ? "" : ": ", fmt::join((*frames)->TakeNews(), "; "));
   }
   std::optional<OdometryFile> odometry;
   if (!run.odometry.empty()) {
@@ -73,13 +76,16 @@ Result<std::unique_ptr<RecordedDevice>> RecordedDevice::Open(const RecordedRun& 
   return device;
 }
 
-Result<SensorTime> RecordedDevice::NextStamp() {
-  const int frame = next_++;
-  if (times_.empty()) return FromSeconds(frame / rate_hz_);
-  if (static_cast<std::size_t>(frame) < times_.size())
-    return times_[static_cast<std::size_t>(frame)];
+Result<SensorTime> RecordedDevice::StampOfFrame() const {
+  if (times_.empty()) return FromSeconds(frame_ / rate_hz_);
+  const auto at = static_cast<std::size_t>(frame_);
+  if (at < times_.size()) return times_[at];
   return Fail(ErrorCode::kInvalidArgument, "{} has {} times, but there are more frames",
               times_file_.string(), times_.size());
+}
+
+void RecordedDevice::TellNews() {
+  for (const std::string& each : frames_->TakeNews()) spdlog::warn("{}", each);
 }
 
 Result<std::optional<Observation>> RecordedDevice::Next() {
@@ -89,11 +95,13 @@ Result<std::optional<Observation>> RecordedDevice::Next() {
     first_.reset();
   } else {
     auto frame = frames_->Next();
+    TellNews();
     if (!frame) return tl::unexpected(frame.error());
     if (!*frame) return std::nullopt;
+    frame_ = frames_->number();
     observation.image = std::move(**frame);
   }
-  const auto stamp = NextStamp();
+  const auto stamp = StampOfFrame();
   if (!stamp) return tl::unexpected(stamp.error());
   observation.stamp = *stamp;
   if (odometry_) {
@@ -120,7 +128,7 @@ std::string RecordedDevice::timing() const {
 std::optional<double> RecordedDevice::drive_progress() const {
   const auto size = frames_->size();
   if (!size || *size == 0) return std::nullopt;
-  return std::min(1.0, static_cast<double>(next_) / *size);
+  return std::min(1.0, static_cast<double>(frame_ + 1) / *size);
 }
 
 }  // namespace trailcast::agent

@@ -83,6 +83,7 @@ class Measuring {
   Coming scans_come_;
   std::vector<Coming> ranges_come_;
   std::vector<double> came_s_;  // pictures
+  image::PictureRun pictures_;
   // By stamps; odometry's also by when it came.
   std::vector<odometry::TimedValue> shifts_;
   std::vector<odometry::TimedValue> headings_;
@@ -103,7 +104,7 @@ void Measuring::Note(const Ros2Picture& picture, steady_clock::time_point now) {
   const auto taken = frame_clock_.Follow(StampOf(picture), now);
   if (!taken) return;
   came_s_.push_back(SecondsOf(now));
-  const auto gray = Gray(picture, options_.topics.ImageTopic());
+  const auto gray = Gray(picture, options_.topics.ImageTopic(), pictures_);
   if (!gray) {
     measures_.unreadable = gray.error().message;
     return;

@@ -241,9 +241,10 @@ Result<std::optional<Observation>> Ros2Device::Next() {
       if (s.still.Over(frame.taken, *observation.odometry)) return std::nullopt;
     }
     observation.imu = s.TakeImu();
-    if (steady_clock::now() - s.heard_at < kCommandHolds) observation.heard = s.heard;
+    if (s.run.clock() - s.heard_at < kCommandHolds) observation.heard = s.heard;
     guard.unlock();
-    auto gray = Gray(frame.picture, s.run.topics.ImageTopic());
+    auto gray = Gray(frame.picture, s.run.topics.ImageTopic(), s.pictures);
+    for (const std::string& each : s.pictures.TakeNews()) spdlog::warn("camera: {}", each);
     const bool over = gray && s.still_by_sight.Over(frame.taken, *gray);
     guard.lock();
     if (over) return std::nullopt;
@@ -306,7 +307,7 @@ Result<image::GrayImage> Ros2Device::Look() {
   }
   const Ros2Picture picture = s.newest->picture;
   guard.unlock();
-  return Gray(picture, s.run.topics.ImageTopic());
+  return Gray(picture, s.run.topics.ImageTopic(), s.pictures);
 }
 
 std::string Ros2Device::Ailment() {

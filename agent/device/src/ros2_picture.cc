@@ -15,13 +15,14 @@ const std::vector<std::uint8_t>& BytesOf(const Ros2Picture& picture) {
       picture);
 }
 
-Result<image::GrayImage> Gray(const Ros2Picture& picture, const std::string& topic) {
+Result<image::GrayImage> Gray(const Ros2Picture& picture, const std::string& topic,
+                              image::PictureRun& run) {
   if (const auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&picture)) {
-    return image::DecodeGray(jpeg->data, topic);
+    return image::DecodeGray(jpeg->data, topic, run);
   }
   const auto& raw = std::get<dds::Ros2Image>(picture);
   auto gray = image::GrayFromRaw(
-      {raw.width_px, raw.height_px, raw.encoding, raw.big_endian, raw.step, raw.data});
+      {raw.width_px, raw.height_px, raw.encoding, raw.big_endian, raw.step, raw.data}, run);
   if (!gray) return Wrap(gray.error(), topic);
   return gray;
 }

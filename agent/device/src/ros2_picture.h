@@ -7,6 +7,7 @@
 
 #include "services/dds/ros2_link.h"
 #include "services/image/image.h"
+#include "services/image/picture_run.h"
 
 namespace trailcast::agent {
 
@@ -16,8 +17,9 @@ using Ros2Picture = std::variant<dds::Ros2Image, dds::Ros2CompressedImage>;
 [[nodiscard]] SensorTime StampOf(const Ros2Picture& picture);
 [[nodiscard]] const std::vector<std::uint8_t>& BytesOf(const Ros2Picture& picture);
 
-// Messages begin with `topic`. kCorrupt for a picture that is damaged, so that another may be well;
-// anything else holds for the camera.
-[[nodiscard]] Result<image::GrayImage> Gray(const Ros2Picture& picture, const std::string& topic);
+// The camera's next picture. Messages begin with `topic`. kCorrupt for a picture that is damaged,
+// so that another may be well; anything else holds for the camera.
+[[nodiscard]] Result<image::GrayImage> Gray(const Ros2Picture& picture, const std::string& topic,
+                                            image::PictureRun& run);
 
 }  // namespace trailcast::agent

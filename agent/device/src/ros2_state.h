@@ -109,8 +109,9 @@ struct Ros2Device::State {
   std::optional<SensorTime> given;  // the last frame that Next took, by its stamp
   std::optional<SensorTime> given_before;
   std::chrono::steady_clock::time_point given_came_at;
-  bool answered = true;  // with a command
-  int unreadable = 0;    // pictures that were left out
+  bool answered = true;        // with a command
+  image::PictureRun pictures;  // the driving thread's alone
+  int unreadable = 0;          // pictures that were left out
   std::string why_unreadable;
   motion::VelocityCommand told;  // what the base does
   bool drove = false;            // it was told to move before

@@ -23,7 +23,8 @@ class Codecs {
   [[nodiscard]] virtual Result<RgbImage> DecodeRgb(std::span<const std::uint8_t> bytes,
                                                    const std::string& name) const = 0;
   [[nodiscard]] virtual Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes,
-                                                     const std::string& name) const = 0;
+                                                     const std::string& name,
+                                                     PictureRun& run) const = 0;
   [[nodiscard]] virtual Result<void> WritePng(const RgbImage& picture,
                                               const std::filesystem::path& file) const = 0;
   [[nodiscard]] virtual Result<void> WritePng(const GrayImage& picture,

@@ -46,7 +46,14 @@ Result<RgbImage> DecodeRgb(std::span<const std::uint8_t> bytes, const std::strin
 }
 
 Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes, const std::string& name) {
-  return Loaded().and_then([&](const Codecs* codecs) { return codecs->DecodeGray(bytes, name); });
+  PictureRun alone;
+  return DecodeGray(bytes, name, alone);
+}
+
+Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes, const std::string& name,
+                             PictureRun& run) {
+  return Loaded().and_then(
+      [&](const Codecs* codecs) { return codecs->DecodeGray(bytes, name, run); });
 }
 
 Result<void> WritePng(const RgbImage& picture, const fs::path& file) {

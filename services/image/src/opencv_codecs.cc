@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -13,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "services/image/src/jpeg_layout.h"
 #include "services/image/src/picture_size.h"
 
 namespace trailcast::image {
@@ -55,20 +58,6 @@ Result<std::vector<std::uint8_t>> ReadBytes(const fs::path& file) {
   return bytes;
 }
 
-// libjpeg fills a truncated JPEG up with grey and calls it read. Every scan starts with the marker
-// FF DA, and the end marker FF D9 cannot occur inside one, so it must follow the last scan's start.
-bool IsTruncatedJpeg(const std::vector<std::uint8_t>& bytes) {
-  constexpr std::array<std::uint8_t, 3> kStart = {0xFF, 0xD8, 0xFF};
-  constexpr std::array<std::uint8_t, 2> kScan = {0xFF, 0xDA};
-  constexpr std::array<std::uint8_t, 2> kEnd = {0xFF, 0xD9};
-  if (!std::equal(kStart.begin(), kStart.end(), bytes.begin(),
-                  bytes.begin() + std::min<std::ptrdiff_t>(3, std::ssize(bytes)))) {
-    return false;
-  }
-  const auto scan = std::find_end(bytes.begin(), bytes.end(), kScan.begin(), kScan.end());
-  return std::search(scan, bytes.end(), kEnd.begin(), kEnd.end()) == bytes.end();
-}
-
 // A camera's picture has no more; a header of a few bytes can promise a thousand times as many.
 constexpr std::uint64_t kMostPixels = 100'000'000;
 
@@ -80,9 +69,11 @@ Result<cv::Mat> DecodeBytes(const std::vector<std::uint8_t>& bytes, const std::s
                 name, pixels, kMostPixels);
   }
   cv::Mat picture;
-  if (!bytes.empty() && !IsTruncatedJpeg(bytes)) {
+  // libjpeg fills a truncated JPEG up with grey and calls it read.
+  const bool truncated = IsJpeg(bytes) && !ReadJpegLayout(bytes).whole;
+  if (!bytes.empty() && !truncated) {
     try {
-      picture = cv::imdecode(bytes, flags);
+      picture = cv::imdecode(bytes, flags | cv::IMREAD_IGNORE_ORIENTATION);
     } catch (const cv::Exception&) {
       picture.release();
     }
@@ -96,9 +87,39 @@ Result<cv::Mat> DecodeBytes(const std::vector<std::uint8_t>& bytes, const std::s
   return picture;
 }
 
-Result<cv::Mat> Decode(const fs::path& file, int flags) {
-  return ReadBytes(file).and_then([&](const std::vector<std::uint8_t>& bytes) {
-    return DecodeBytes(bytes, file.string(), flags);
+// CIPA DC-008 (Exif), 4.6.5: which sides the first row and the first column are.
+cv::Mat Turned(const cv::Mat& picture, int orientation) {
+  cv::Mat turned = picture;
+  if (orientation >= 5) cv::transpose(picture, turned);
+  constexpr int kLeftAndRight = 1;
+  constexpr int kUpAndDown = 0;
+  if (orientation == 2 || orientation == 6) cv::flip(turned, turned, kLeftAndRight);
+  if (orientation == 4 || orientation == 8) cv::flip(turned, turned, kUpAndDown);
+  if (orientation == 3 || orientation == 7) cv::flip(turned, turned, kLeftAndRight - 2);
+  return turned;
+}
+
+// Of 16 bits a pixel those that the run's pictures use.
+Result<cv::Mat> DecodeGrayBytes(const std::vector<std::uint8_t>& bytes, const std::string& name,
+                                PictureRun& run) {
+  auto picture = DecodeBytes(bytes, name, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+  if (picture && picture->depth() != CV_8U && picture->depth() != CV_16U) {
+    picture = DecodeBytes(bytes, name, cv::IMREAD_GRAYSCALE);
+  }
+  if (!picture) return picture;
+  if (picture->depth() == CV_16U) {
+    double brightest = 0.0;
+    cv::minMaxLoc(*picture, nullptr, &brightest);
+    const int bits = run.Bits(std::bit_width(static_cast<unsigned>(brightest)));
+    const double scale = std::ldexp(1.0, 8 - bits);
+    picture->convertTo(*picture, CV_8U, scale, 0.5 * scale - 0.5);  // rounds down
+  }
+  return Turned(*picture, run.Orientation(bytes));
+}
+
+Result<cv::Mat> DecodeColor(const std::vector<std::uint8_t>& bytes, const std::string& name) {
+  return DecodeBytes(bytes, name, cv::IMREAD_COLOR).map([&](const cv::Mat& picture) {
+    return Turned(picture, ReadJpegLayout(bytes).orientation);
   });
 }
 
@@ -143,6 +164,14 @@ cv::Mat View(const Image& picture, int type) {
   return {picture.height, picture.width, type, const_cast<std::uint8_t*>(picture.pixels.data())};
 }
 
+Result<GrayImage> ReadGrayOf(const fs::path& file, PictureRun& run) {
+  return ReadBytes(file)
+      .and_then([&](const std::vector<std::uint8_t>& bytes) {
+        return DecodeGrayBytes(bytes, file.string(), run);
+      })
+      .map(FromMat<GrayImage>);
+}
+
 // Remembers the first frame's size and refuses any other.
 class SizeGuard {
  public:
@@ -171,13 +200,26 @@ class FolderSequence final : public FrameSequence {
   explicit FolderSequence(std::vector<fs::path> files) : files_(std::move(files)) {}
 
   Result<std::optional<GrayImage>> Next() override {
-    if (next_ == files_.size()) return std::nullopt;
-    const fs::path& file = files_[next_];
-    ++next_;
-    return Decode(file, cv::IMREAD_GRAYSCALE)
-        .map(FromMat<GrayImage>)
-        .and_then(
-            [&](GrayImage frame) { return size_guard_.Check(std::move(frame), file.string()); });
+    while (next_ < files_.size()) {
+      const fs::path& file = files_[next_];
+      ++next_;
+      auto frame = ReadGrayOf(file, run_);
+      if (frame) {
+        left_out_.Read();
+        return size_guard_.Check(std::move(*frame), file.string());
+      }
+      if (frame.error().code != ErrorCode::kCorrupt) return tl::unexpected(frame.error());
+      if (auto few = left_out_.LeaveOut(frame.error()); !few) return tl::unexpected(few.error());
+    }
+    return std::nullopt;
+  }
+  int number() const override { return static_cast<int>(next_) - 1; }
+  std::vector<std::string> TakeNews() override {
+    std::vector<std::string> news = run_.TakeNews();
+    if (next_ == files_.size() && left_out_.count() > 0) {
+      news.push_back(std::exchange(left_out_, {}).Text() + ": they are left out");
+    }
+    return news;
   }
   std::optional<int> size() const override { return static_cast<int>(files_.size()); }
   std::optional<double> rate_hz() const override { return std::nullopt; }
@@ -185,6 +227,8 @@ class FolderSequence final : public FrameSequence {
  private:
   std::vector<fs::path> files_;
   std::size_t next_ = 0;
+  PictureRun run_;
+  LeftOutPictures left_out_;
   SizeGuard size_guard_;
 };
 
@@ -209,6 +253,8 @@ class VideoSequence final : public FrameSequence {
     ++read_;
     return size_guard_.Check(FromMat<GrayImage>(gray), name);
   }
+  int number() const override { return read_ - 1; }
+  std::vector<std::string> TakeNews() override { return {}; }
   std::optional<int> size() const override {
     return announced_frames_ > 0 ? std::optional(announced_frames_) : std::nullopt;
   }
@@ -270,7 +316,9 @@ Result<std::unique_ptr<FrameSequence>> OpenFolder(const fs::path& folder) {
   std::vector<fs::path> files;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    if (IsPicture(entry->path())) files.push_back(entry->path());
+    // macOS keeps what it knows of a file in one beside it, "._" before its name.
+    const bool hidden = entry->path().filename().string().front() == '.';
+    if (IsPicture(entry->path()) && !hidden) files.push_back(entry->path());
   }
   if (error) {
     return Fail(ErrorCode::kUnavailable, "cannot list the folder {}: {}", folder.string(),
@@ -309,19 +357,24 @@ Result<std::unique_ptr<FrameSequence>> OpenVideo(const fs::path& file) {
 class OpenCvCodecs final : public Codecs {
  public:
   [[nodiscard]] Result<GrayImage> ReadGray(const fs::path& file) const override {
-    return Decode(file, cv::IMREAD_GRAYSCALE).map(FromMat<GrayImage>);
+    PictureRun alone;
+    return ReadGrayOf(file, alone);
   }
   [[nodiscard]] Result<RgbImage> ReadRgb(const fs::path& file) const override {
-    return Decode(file, cv::IMREAD_COLOR).map(FromBgr);
+    return ReadBytes(file)
+        .and_then([&](const std::vector<std::uint8_t>& bytes) {
+          return DecodeColor(bytes, file.string());
+        })
+        .map(FromBgr);
   }
   [[nodiscard]] Result<RgbImage> DecodeRgb(std::span<const std::uint8_t> bytes,
                                            const std::string& name) const override {
-    return DecodeBytes({bytes.begin(), bytes.end()}, name, cv::IMREAD_COLOR).map(FromBgr);
+    return DecodeColor({bytes.begin(), bytes.end()}, name).map(FromBgr);
   }
   [[nodiscard]] Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes,
-                                             const std::string& name) const override {
-    return DecodeBytes({bytes.begin(), bytes.end()}, name, cv::IMREAD_GRAYSCALE)
-        .map(FromMat<GrayImage>);
+                                             const std::string& name,
+                                             PictureRun& run) const override {
+    return DecodeGrayBytes({bytes.begin(), bytes.end()}, name, run).map(FromMat<GrayImage>);
   }
   [[nodiscard]] Result<void> WritePng(const RgbImage& picture,
                                       const fs::path& file) const override {

@@ -1,5 +1,6 @@
 #include "services/image/picture_check.h"
 
+#include "services/image/src/jpeg_layout.h"
 #include "services/image/src/picture_size.h"
 
 namespace trailcast::image {
@@ -14,11 +15,8 @@ Result<void> CheckPicture(std::span<const std::uint8_t> bytes, std::uint64_t mos
   }
   // A progressive JPEG has about ten scans; each is a pass over all pixels, and may be a few bytes.
   constexpr std::ptrdiff_t kMostScans = 64;
-  std::ptrdiff_t scans = 0;
-  for (std::size_t i = 1; i < bytes.size(); ++i) {
-    if (bytes[i - 1] == 0xFF && bytes[i] == 0xDA) ++scans;
-  }
-  if (IsJpeg(bytes) && scans > kMostScans) {
+  const std::ptrdiff_t scans = ReadJpegLayout(bytes).scans;
+  if (scans > kMostScans) {
     return Fail(ErrorCode::kInvalidArgument, "the picture has {} scans; at most {} are decoded",
                 scans, kMostScans);
   }

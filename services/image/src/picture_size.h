@@ -9,6 +9,4 @@ namespace trailcast::image {
 // short before it says so. A decoder makes room for as many before it looks at the rest.
 [[nodiscard]] std::uint64_t PromisedPixels(std::span<const std::uint8_t> bytes);
 
-[[nodiscard]] bool IsJpeg(std::span<const std::uint8_t> bytes);
-
 }  // namespace trailcast::image

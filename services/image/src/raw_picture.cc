@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
@@ -11,7 +12,7 @@ namespace trailcast::image {
 namespace {
 
 constexpr int kAsItIs = -1;
-constexpr int kUpperByte = -2;  // of 16 bits
+constexpr int kOf16Bits = -2;  // those that are used
 
 struct Encoding {
   std::string_view name;
@@ -23,8 +24,8 @@ struct Encoding {
 constexpr std::array kEncodings{
     Encoding{"mono8", CV_8UC1, kAsItIs},
     Encoding{"8UC1", CV_8UC1, kAsItIs},
-    Encoding{"mono16", CV_8UC2, kUpperByte},
-    Encoding{"16UC1", CV_8UC2, kUpperByte},
+    Encoding{"mono16", CV_8UC2, kOf16Bits},
+    Encoding{"16UC1", CV_8UC2, kOf16Bits},
     Encoding{"rgb8", CV_8UC3, cv::COLOR_RGB2GRAY},
     Encoding{"bgr8", CV_8UC3, cv::COLOR_BGR2GRAY},
     Encoding{"8UC3", CV_8UC3, cv::COLOR_BGR2GRAY},
@@ -67,21 +68,31 @@ Result<void> CheckSize(const RawPicture& picture, std::size_t pixel_bytes) {
   return {};
 }
 
-cv::Mat ToGray(const cv::Mat& raw, int conversion, bool big_endian) {
-  cv::Mat gray;
-  if (conversion == kAsItIs) {
-    gray = raw.clone();
-  } else if (conversion == kUpperByte) {
-    cv::extractChannel(raw, gray, big_endian ? 0 : 1);
-  } else {
-    cv::cvtColor(raw, gray, conversion);
+GrayImage Of16Bits(const RawPicture& picture, PictureRun& run) {
+  const std::size_t width = picture.width_px;
+  const std::size_t low = picture.big_endian ? 1 : 0;
+  std::vector<std::uint16_t> numbers;
+  numbers.reserve(width * picture.height_px);
+  unsigned all = 0;
+  for (std::size_t y = 0; y < picture.height_px; ++y) {
+    const auto row = picture.bytes.subspan(y * picture.step, 2 * width);
+    for (std::size_t x = 0; x < 2 * width; x += 2) {
+      numbers.push_back(static_cast<std::uint16_t>(row[x + low] | row[x + 1 - low] << 8U));
+      all |= numbers.back();
+    }
   }
+  const int dropped = run.Bits(std::bit_width(all)) - 8;
+  GrayImage gray{static_cast<int>(width), static_cast<int>(picture.height_px), {}};
+  gray.pixels.resize(numbers.size());
+  std::transform(
+      numbers.begin(), numbers.end(), gray.pixels.begin(),
+      [dropped](std::uint16_t number) { return static_cast<std::uint8_t>(number >> dropped); });
   return gray;
 }
 
 }  // namespace
 
-Result<GrayImage> GrayFromRaw(const RawPicture& picture) {
+Result<GrayImage> GrayFromRaw(const RawPicture& picture, PictureRun& run) {
   const auto* encoding =
       std::find_if(kEncodings.begin(), kEncodings.end(),
                    [&](const Encoding& one) { return one.name == picture.encoding; });
@@ -94,12 +105,17 @@ Result<GrayImage> GrayFromRaw(const RawPicture& picture) {
       !fits) {
     return tl::unexpected(fits.error());
   }
+  if (encoding->to_gray == kOf16Bits) return Of16Bits(picture, run);
   // OpenCV's headers want a mutable pointer even for reading.
   const cv::Mat raw(static_cast<int>(picture.height_px), static_cast<int>(picture.width_px),
                     encoding->type, const_cast<std::uint8_t*>(picture.bytes.data()), picture.step);
   cv::Mat gray;
   try {
-    gray = ToGray(raw, encoding->to_gray, picture.big_endian);
+    if (encoding->to_gray == kAsItIs) {
+      gray = raw.clone();
+    } else {
+      cv::cvtColor(raw, gray, encoding->to_gray);
+    }
   } catch (const cv::Exception& exception) {
     return Fail(ErrorCode::kInvalidArgument,
                 "a picture of {}x{} pixels in {} cannot be made grey: "

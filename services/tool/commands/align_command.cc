@@ -49,21 +49,23 @@ int Run(const CLI::App& app, const AlignCommand& align) {
   }
   const program::StopSignal stop;
   program::LiveLines live(stderr, std::chrono::seconds(20));
-  const auto reference =
+  const auto aligned =
       trial::Align(align.teach, align.replay, align.options, [&](const char* doing, double share) {
         live.Show({fmt::format("{} {:>3.0f} %  {}", program::ProgressBar(share, kBarWidth),
                                100.0 * share, doing)});
         return !program::StopSignal::requested();
       });
-  if (!reference) return program::Complain(app, reference.error());
-  if (auto written = trial::WriteReference(*reference, align.out); !written) {
+  if (!aligned) return program::Complain(app, aligned.error());
+  for (const std::string& each : aligned->news) fmt::print(stderr, "{}\n", each);
+  const trial::Reference& reference = aligned->reference;
+  if (auto written = trial::WriteReference(reference, align.out); !written) {
     return program::Complain(app, written.error());
   }
-  const auto good = std::count_if(reference->begin(), reference->end(),
+  const auto good = std::count_if(reference.begin(), reference.end(),
                                   [](const trial::Alignment& row) { return row.good; });
   fmt::print("{}: {} frames of the replayed recording, {} of them good ({:.0f} %)\n",
-             align.out.string(), reference->size(), good,
-             100.0 * static_cast<double>(good) / static_cast<double>(reference->size()));
+             align.out.string(), reference.size(), good,
+             100.0 * static_cast<double>(good) / static_cast<double>(reference.size()));
   return program::kExitOk;
 }
 

@@ -344,6 +344,42 @@ TEST_F(BagDeviceTest, DamagedAndLatePicturesAreLeftOut) {
   EXPECT_EQ(all[2].image.pixels, test::WalkFrame(3).pixels);
 }
 
+TEST_F(BagDeviceTest, ADriveOfWhichTooManyPicturesAreDamagedEndsThere) {
+  Picture(milliseconds(0), 0);
+  for (int at = 50; at <= 600; at += 50) {
+    Writer().Put("/camera", kImage, kBegin + milliseconds(at), {1, 2, 3});
+  }
+  const auto device = Open();
+  ASSERT_TRUE(device) << device.error().message;
+  ASSERT_TRUE((*device)->Next());
+  const auto ended = (*device)->Next();
+  ASSERT_FALSE(ended);
+  EXPECT_THAT(ended.error().message,
+              AllOf(HasSubstr("/camera"), HasSubstr("11 of 12 pictures"), HasSubstr("too many")));
+}
+
+TEST_F(BagDeviceTest, OfASensorWithTwelveBitsThoseAreSeen) {
+  for (int i = 0; i < 2; ++i) {
+    image::GrayImage wide{320, 120, {}};  // two bytes a pixel, of which four bits are above eight
+    for (const std::uint8_t pixel : test::WalkFrame(i).pixels) {
+      wide.pixels.push_back(static_cast<std::uint8_t>(pixel << 4U));
+      wide.pixels.push_back(static_cast<std::uint8_t>(pixel >> 4U));
+    }
+    test::CdrWriter cdr;
+    cdr.PutHeader(kBegin + milliseconds(100 * i), "camera");
+    cdr.Put(std::uint32_t{120}).Put(std::uint32_t{160}).PutText("mono16").Put(std::uint8_t{0});
+    cdr.Put(std::uint32_t{320}).PutOctets(wide.pixels);
+    Writer().Put("/camera", kImage, kBegin + milliseconds(100 * i), cdr.Message());
+  }
+  const auto device = Open();
+  ASSERT_TRUE(device) << device.error().message;
+  const auto all = All(**device);
+  ASSERT_EQ(all.size(), 2U);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(all[static_cast<std::size_t>(i)].image.pixels, test::WalkFrame(i).pixels);
+  }
+}
+
 TEST_F(BagDeviceTest, CompressedPicturesAreDecoded) {
   const auto jpeg = image::EncodeJpeg(test::WalkFrame(3), 100);
   ASSERT_TRUE(jpeg);

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "tests/support/temp_dir.h"
@@ -59,6 +61,39 @@ TEST(RecordedDeviceTest, FramesOfTheirOwnTimesHaveTheOdometryOfThen) {
   }
   const auto end = (*device)->Next();
   EXPECT_TRUE(end && !*end);
+}
+
+TEST(RecordedDeviceTest, FramesAfterOneThatCannotBeReadKeepTheirTimes) {
+  const test::TempDir folder;
+  test::WriteWalk(folder / "run", 4);
+  std::vector<std::filesystem::path> pictures(std::filesystem::directory_iterator(folder / "run"),
+                                              {});
+  std::sort(pictures.begin(), pictures.end());
+  for (const int damaged : {0, 2}) {
+    std::filesystem::resize_file(pictures.at(static_cast<std::size_t>(damaged)), 9);
+  }
+  const auto device = RecordedDevice::Open({folder / "run", "", 10.0});
+  ASSERT_TRUE(device) << device.error().message;
+  for (const int i : {1, 3}) {
+    const auto next = (*device)->Next();
+    ASSERT_TRUE(next && *next) << i;
+    EXPECT_EQ((*next)->stamp, std::chrono::milliseconds(100 * i));
+    EXPECT_EQ((*next)->image.pixels, test::WalkFrame(i).pixels);
+    EXPECT_EQ((*device)->frame(), i);
+  }
+  const auto end = (*device)->Next();
+  EXPECT_TRUE(end && !*end);
+}
+
+TEST(RecordedDeviceTest, ARunOfWhichNothingCanBeReadIsRefusedAndSaysWhy) {
+  const test::TempDir folder;
+  test::WriteWalk(folder / "run", 2);
+  for (const auto& picture : std::filesystem::directory_iterator(folder / "run")) {
+    std::filesystem::resize_file(picture, 0);
+  }
+  const auto device = RecordedDevice::Open({folder / "run", "", 10.0});
+  ASSERT_FALSE(device);
+  EXPECT_THAT(device.error().message, HasSubstr("2 of 2 pictures cannot be read"));
 }
 
 TEST(RecordedDeviceTest, TimesThatDoNotFitTheFramesAreRefused) {

@@ -61,7 +61,7 @@ TEST(Files, WhatAStrangerSendsIsLookedAtBeforeItIsDecoded) {
     EXPECT_FALSE(CheckPicture(bytes, 1'000'000)) << text;
   }
   std::vector<std::uint8_t> scans = jpeg;
-  for (int i = 0; i < 65; ++i) scans.insert(scans.end(), {0xFF, 0xDA});
+  for (int i = 0; i < 65; ++i) scans.insert(scans.end() - 2, {0xFF, 0xDA, 0, 2});
   EXPECT_THAT(CheckPicture(scans, 1'000'000).error().message, HasSubstr("scans"));
 }
 
@@ -151,6 +151,36 @@ TEST_P(TruncatedPicture, IsCorruptAndNamed) {
 INSTANTIATE_TEST_SUITE_P(Formats, TruncatedPicture,
                          ::testing::Combine(::testing::Values(".png", ".jpg", ".bmp"),
                                             ::testing::Values(0.3, 0.6, 0.9)));
+
+// A phone's film, a camera's own data: markers in them are none of the picture's.
+TEST(Files, WhatLiesBehindAPicturesEndIsNoPartOfIt) {
+  const test::TempDir folder;
+  const std::vector<std::uint8_t> jpeg = EncodeJpeg(Gradient(64, 48), 95).value();
+  std::vector<std::uint8_t> longer = jpeg;
+  for (int i = 0; i < 100; ++i) longer.insert(longer.end(), {'f', 't', 0xFF, 0xDA, 0, 12, 0xFF});
+  std::ofstream(folder / "motion.jpg", std::ios::binary)
+      .write(reinterpret_cast<const char*>(longer.data()), std::ssize(longer));
+  const auto read = ReadGray(folder / "motion.jpg");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->pixels, DecodeGray(jpeg, "it")->pixels);
+  EXPECT_TRUE(CheckPicture(longer, 64 * 48));
+  // One that was cut off is not made whole by what comes after.
+  longer.erase(longer.begin() + std::ssize(jpeg) - 2, longer.begin() + std::ssize(jpeg));
+  EXPECT_FALSE(DecodeGray(longer, "it"));
+}
+
+TEST(Files, OfSixteenBitsThoseAreTakenThatAreUsed) {
+  for (const int bits : {10, 12, 16}) {
+    cv::Mat numbers(4, 8, CV_16UC1, cv::Scalar((1 << bits) - 1));
+    numbers.at<std::uint16_t>(0, 0) = static_cast<std::uint16_t>(77 << (bits - 8) | 1);
+    std::vector<std::uint8_t> png;
+    ASSERT_TRUE(cv::imencode(".png", numbers, png));
+    const auto read = DecodeGray(png, "it");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->at(0, 0), 77) << bits;
+    EXPECT_EQ(read->at(1, 0), 255) << bits;
+  }
+}
 
 TEST(PromisedPixels, AreThoseOfWhatWasEncoded) {
   GrayImage image = Gradient(64, 48);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
 #include <vector>
@@ -15,7 +16,9 @@ namespace trailcast::image {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 GrayImage Plain(int width, int height, std::uint8_t grey) {
   return {width, height, std::vector<std::uint8_t>(PixelIndex(0, height, width), grey)};
@@ -86,18 +89,109 @@ TEST(FrameSequence, SinglePictureIsRefused) {
   EXPECT_EQ(frames.error().code, ErrorCode::kInvalidArgument);
 }
 
-TEST(FrameSequence, TruncatedPictureMidwayIsNamed) {
+TEST(FrameSequence, PicturesThatCannotBeReadAreLeftOutAndCounted) {
   const test::TempDir folder;
-  Write(Plain(64, 48, 10), folder / "1.png");
-  Write(Plain(64, 48, 10), folder / "2.png");
+  for (int i = 0; i < 6; ++i) {
+    Write(Plain(64, 48, static_cast<std::uint8_t>(10 * i)), folder / (std::to_string(i) + ".png"));
+  }
+  for (const char* empty : {"0.png", "5.png"}) std::filesystem::resize_file(folder / empty, 0);
   std::filesystem::resize_file(folder / "2.png", 60);
   auto frames = FrameSequence::Open(folder.path());
   ASSERT_TRUE(frames);
-  ASSERT_TRUE((*frames)->Next());
-  const auto broken = (*frames)->Next();
-  ASSERT_FALSE(broken);
-  EXPECT_EQ(broken.error().code, ErrorCode::kCorrupt);
-  EXPECT_THAT(broken.error().message, HasSubstr("2.png"));
+  EXPECT_EQ((*frames)->size(), 6);
+  for (const int number : {1, 3, 4}) {
+    const auto frame = (*frames)->Next();
+    ASSERT_TRUE(frame && *frame) << number;
+    EXPECT_EQ((*frame)->at(0, 0), 10 * number);
+    EXPECT_EQ((*frames)->number(), number);
+    EXPECT_THAT((*frames)->TakeNews(), IsEmpty());
+  }
+  const auto end = (*frames)->Next();
+  ASSERT_TRUE(end) << end.error().message;
+  EXPECT_FALSE(*end);
+  EXPECT_THAT((*frames)->TakeNews(),
+              ElementsAre(AllOf(HasSubstr("3 of 6 pictures"), HasSubstr("0.png"))));
+  EXPECT_THAT((*frames)->TakeNews(), IsEmpty());
+}
+
+TEST(FrameSequence, ARunOfWhichTooMuchCannotBeReadEndsThere) {
+  const test::TempDir folder;
+  for (int i = 100; i < 200; ++i) Write(Plain(8, 6, 10), folder / (std::to_string(i) + ".png"));
+  for (int i = 150; i < 200; ++i) {
+    std::filesystem::resize_file(folder / (std::to_string(i) + ".png"), 0);
+  }
+  auto frames = FrameSequence::Open(folder.path());
+  ASSERT_TRUE(frames);
+  for (int i = 0; i < 50; ++i) ASSERT_TRUE((*frames)->Next());
+  const auto ended = (*frames)->Next();
+  ASSERT_FALSE(ended);
+  EXPECT_EQ(ended.error().code, ErrorCode::kCorrupt);
+  EXPECT_THAT(ended.error().message,
+              AllOf(HasSubstr("11 of 61 pictures"), HasSubstr("150.png"), HasSubstr("too many")));
+}
+
+// macOS keeps what it knows of a file beside it.
+TEST(FrameSequence, HiddenFilesAreNoPictures) {
+  const test::TempDir folder;
+  Write(Plain(8, 6, 10), folder / "1.png");
+  for (const char* hidden : {"._1.png", ".2.png"}) std::ofstream(folder / hidden) << "Mac OS X";
+  auto frames = FrameSequence::Open(folder.path());
+  ASSERT_TRUE(frames);
+  EXPECT_EQ((*frames)->size(), 1);
+  EXPECT_TRUE((*frames)->Next().value());
+  EXPECT_FALSE((*frames)->Next().value());
+}
+
+// A JPEG of 16 by 8, black but for its right half, which says how it is to be turned.
+std::vector<std::uint8_t> JpegTurned(int orientation) {
+  GrayImage picture = Plain(16, 8, 0);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 8; x < 16; ++x) picture.pixels[PixelIndex(x, y, 16)] = 255;
+  }
+  std::vector<std::uint8_t> jpeg = EncodeJpeg(picture, 95).value();
+  // APP1 of 34 bytes: "Exif", a big-endian TIFF, one directory of one entry, no other directory.
+  std::vector<std::uint8_t> exif{
+      0xFF, 0xE1, 0, 34, 'E', 'x', 'i', 'f', 0, 0,
+      'M',  'M',  0, 42, 0,   0,   0,   8,   0, 1,
+      1,    0x12, 0, 3,  0,   0,   0,   1,   0, static_cast<std::uint8_t>(orientation),
+      0,    0,    0, 0,  0,   0};
+  jpeg.insert(jpeg.begin() + 2, exif.begin(), exif.end());
+  return jpeg;
+}
+
+TEST(DecodeGray, APictureIsTurnedAsItSays) {
+  // Where the white half comes to lie, as OpenCV turns it, too.
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    const auto jpeg = JpegTurned(orientation);
+    const cv::Mat expected = cv::imdecode(jpeg, cv::IMREAD_GRAYSCALE);
+    const auto read = DecodeGray(jpeg, "it");
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->width, expected.cols) << orientation;
+    ASSERT_EQ(read->height, expected.rows) << orientation;
+    EXPECT_TRUE(std::equal(read->pixels.begin(), read->pixels.end(), expected.datastart))
+        << orientation;
+  }
+}
+
+TEST(FrameSequence, AllPicturesOfARunAreTurnedAsTheFirst) {
+  for (const int first : {1, 3}) {
+    const test::TempDir folder;
+    const int others = 4 - first;
+    for (int i = 0; i < 3; ++i) {
+      const auto jpeg = JpegTurned(i == 0 ? first : others);
+      std::ofstream(folder / (std::to_string(i) + ".jpg"), std::ios::binary)
+          .write(reinterpret_cast<const char*>(jpeg.data()), std::ssize(jpeg));
+    }
+    auto frames = FrameSequence::Open(folder.path());
+    ASSERT_TRUE(frames);
+    std::vector<std::string> news;
+    while (const auto frame = (*frames)->Next().value()) {
+      EXPECT_EQ(frame->at(2, 2) > 128, first == 3);
+      for (std::string& each : (*frames)->TakeNews()) news.push_back(std::move(each));
+    }
+    ASSERT_EQ(news.size(), first == 3 ? 2U : 1U);
+    EXPECT_THAT(news.back(), HasSubstr("turned otherwise than the first"));
+  }
 }
 
 TEST(FrameSequence, PictureOfAnotherSizeIsNamedWithBothSizes) {

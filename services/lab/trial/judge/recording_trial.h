@@ -28,6 +28,7 @@ struct RecordingRow {
   // route could be taught.
   std::string error;
   std::vector<std::string> visits;  // what has come of those who refreshed the route
+  std::vector<std::string> news;    // what was found out of the replayed pictures; for people
   int segments = 0;
   double ms_per_frame = 0.0;  // CPU time of the replay session; the one figure that varies by run
 };

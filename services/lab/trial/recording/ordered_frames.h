@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "services/base/result.h"
@@ -16,7 +17,8 @@ namespace trailcast::trial {
 [[nodiscard]] Result<int> CountFrames(const std::filesystem::path& recording);
 
 // A recording's frames in another order. An order that goes forward is read as it is asked for; any
-// other keeps in memory what it shows.
+// other keeps in memory what it shows. For a frame that cannot be read the next one that can stands
+// in, so that frames keep their numbers.
 class OrderedFrames {
  public:
   static constexpr std::size_t kMostBytes = std::size_t{1} << 30U;  // kept in memory
@@ -29,6 +31,8 @@ class OrderedFrames {
   [[nodiscard]] Result<std::optional<image::GrayImage>> Next();
 
   [[nodiscard]] const std::vector<Shown>& order() const { return order_; }
+  // As FrameSequence has it.
+  [[nodiscard]] std::vector<std::string> TakeNews() { return frames_->TakeNews(); }
 
  private:
   OrderedFrames(std::unique_ptr<image::FrameSequence> frames, std::vector<Shown> order)
@@ -39,7 +43,7 @@ class OrderedFrames {
   std::unique_ptr<image::FrameSequence> frames_;
   std::vector<Shown> order_;
   std::size_t next_ = 0;                // in order_
-  int read_ = 0;                        // frames of the recording
+  int read_ = 0;                        // frames of the recording, with those left out
   image::GrayImage current_;            // the last one read
   std::vector<image::GrayImage> kept_;  // by frame; empty pictures where none is shown
 };

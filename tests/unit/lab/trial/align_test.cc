@@ -38,12 +38,12 @@ class AlignTest : public testing::Test {
     }
     return folder_ / name;
   }
-  Reference Aligned(const std::filesystem::path& replay, AlignOptions options = {}) {
+  Reference Found(const std::filesystem::path& replay, AlignOptions options = {}) {
     if (options.every == AlignOptions{}.every) options.every = options.teach_every = 1;
     const auto aligned =
         Align(Record("teach", All()), replay, options, [](const char*, double) { return true; });
     EXPECT_TRUE(aligned) << aligned.error().message;
-    return aligned.value_or(Reference{});
+    return aligned.value_or(Aligned{}).reference;
   }
   static std::vector<int> All() {
     std::vector<int> places;
@@ -62,7 +62,7 @@ class AlignTest : public testing::Test {
 };
 
 TEST_F(AlignTest, FindsEachPlaceAndItsSide) {
-  const Reference found = Aligned(Record("replay", {1, 2, 3, 4, 6, 6, 7}, 5.0));
+  const Reference found = Found(Record("replay", {1, 2, 3, 4, 6, 6, 7}, 5.0));
   EXPECT_THAT(TeachFrames(found), ElementsAre(1, 2, 3, 4, 6, 6, 7));
   for (const Alignment& row : found) {
     EXPECT_TRUE(row.good) << row.replay_frame;
@@ -71,13 +71,13 @@ TEST_F(AlignTest, FindsEachPlaceAndItsSide) {
 }
 
 TEST_F(AlignTest, ALapMayEndAndBeginAgain) {
-  const Reference found = Aligned(Record("replay", {4, 5, 6, 7, 0, 1, 2, 3}, -4.0));
+  const Reference found = Found(Record("replay", {4, 5, 6, 7, 0, 1, 2, 3}, -4.0));
   EXPECT_THAT(TeachFrames(found), ElementsAre(4, 5, 6, 7, 0, 1, 2, 3));
   for (const Alignment& row : found) EXPECT_NEAR(row.median_du_px, -4.0, 0.7);
 }
 
 TEST_F(AlignTest, WhatWasTakenElsewhereIsNotGood) {
-  const Reference found = Aligned(Record("replay", {2, 3, -1, -1, 6, 7}));
+  const Reference found = Found(Record("replay", {2, 3, -1, -1, 6, 7}));
   ASSERT_EQ(found.size(), 6U);
   EXPECT_TRUE(found[1].good);
   EXPECT_FALSE(found[2].good);
@@ -90,7 +90,7 @@ TEST_F(AlignTest, LongRecordingsAreComparedNearThePlaceHeldAndFoundAgain) {
   AlignOptions options;
   options.most_pairs = 1;
   const Reference found =
-      Aligned(Record("replay", {0, 1, 2, 3, -1, -1, -1, -1, -1, 4, 5, 6, 7}, 5.0), options);
+      Found(Record("replay", {0, 1, 2, 3, -1, -1, -1, -1, -1, 4, 5, 6, 7}, 5.0), options);
   const std::vector<int> frames = TeachFrames(found);
   ASSERT_EQ(frames.size(), 13U);
   EXPECT_EQ(std::vector<int>(frames.begin(), frames.begin() + 4), (std::vector<int>{0, 1, 2, 3}));
@@ -101,7 +101,7 @@ TEST_F(AlignTest, LooksAtEverySoManyFrames) {
   AlignOptions options;
   options.every = 3;
   options.teach_every = 2;
-  const Reference found = Aligned(Record("replay", {0, 1, 1, 2, 3, 3, 4}), options);
+  const Reference found = Found(Record("replay", {0, 1, 1, 2, 3, 3, 4}), options);
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(found[1].replay_frame, 3);
   EXPECT_THAT(TeachFrames(found), ElementsAre(0, 2, 4));
@@ -111,8 +111,8 @@ TEST_F(AlignTest, ThreadsChangeNothing) {
   const auto replay = Record("replay", {0, 2, 4, 6}, 3.0);
   AlignOptions options;
   options.jobs = 3;
-  const Reference alone = Aligned(replay);
-  const Reference together = Aligned(replay, options);
+  const Reference alone = Found(replay);
+  const Reference together = Found(replay, options);
   ASSERT_EQ(alone.size(), together.size());
   for (std::size_t i = 0; i < alone.size(); ++i) {
     EXPECT_EQ(alone[i].teach_frame, together[i].teach_frame);

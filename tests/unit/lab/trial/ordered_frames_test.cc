@@ -46,6 +46,17 @@ TEST_F(OrderedFramesTest, ToAndFro) {
   EXPECT_THAT(GreysIn({4, 2, 3, 0, 4}), ElementsAre(40, 20, 30, 0, 40));
 }
 
+TEST_F(OrderedFramesTest, ForAFrameThatCannotBeReadTheNextStandsIn) {
+  for (const char* damaged : {"1.png", "4.png"}) std::filesystem::resize_file(folder_ / damaged, 3);
+  EXPECT_THAT(GreysIn({0, 1, 2, 3, 4}), ElementsAre(0, 20, 20, 30, 30));
+  EXPECT_THAT(GreysIn({4, 1, 2}), ElementsAre(30, 20, 20));
+  auto frames = OrderedFrames::Open(folder_.path(), {{0, false}, {4, false}});
+  ASSERT_TRUE(frames);
+  while (frames->Next().value()) {
+  }
+  EXPECT_THAT(frames->TakeNews(), ElementsAre(HasSubstr("2 of 5 pictures cannot be read")));
+}
+
 TEST_F(OrderedFramesTest, OfNothingThereIsNothing) { EXPECT_TRUE(GreysIn({}).empty()); }
 
 TEST_F(OrderedFramesTest, AFrameThatIsNotThereIsAnError) {

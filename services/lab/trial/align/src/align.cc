@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -27,23 +28,31 @@ constexpr int kSearchStride = 4;  // of the taught pictures, when all over the r
 
 Error Ended() { return {ErrorCode::kUnavailable, "interrupted"}; }
 
-// Calls `use` with every so many frames of a recording.
-Result<void> ForEvery(const std::filesystem::path& recording, int every,
-                      const std::function<Result<void>(const image::GrayImage&, int)>& use) {
+// Calls `use` with every so many frames of a recording; for one that cannot be read the next one
+// stands in. What was found out of the pictures, for people.
+Result<std::vector<std::string>> ForEvery(
+    const std::filesystem::path& recording, int every,
+    const std::function<Result<void>(const image::GrayImage&, int)>& use) {
   auto frames = image::FrameSequence::Open(recording);
   if (!frames) return tl::unexpected(frames.error());
-  for (int number = 0;; ++number) {
+  int due = 0;
+  while (true) {
     const auto frame = (*frames)->Next();
     if (!frame) return tl::unexpected(frame.error());
-    if (!*frame) return {};
-    if (number % every != 0) continue;
-    if (auto used = use(**frame, number); !used) return used;
+    if (!*frame) return (*frames)->TakeNews();
+    for (; due <= (*frames)->number(); due += every) {
+      if (auto used = use(**frame, due); !used) return tl::unexpected(used.error());
+    }
   }
 }
 
-// The features of a recording, after a first look for what of it is the camera's own.
-Result<FeatureFile> Describe(const std::filesystem::path& recording, int every, const char* doing,
-                             const AlignProgress& on_progress) {
+struct Described {
+  FeatureFile features;
+  std::vector<std::string> news;
+};
+// A recording, after a first look for what of it is the camera's own.
+Result<Described> Describe(const std::filesystem::path& recording, int every, const char* doing,
+                           const AlignProgress& on_progress) {
   const auto count = CountFrames(recording);
   if (!count) return tl::unexpected(count.error());
   CameraMask mask;
@@ -54,8 +63,8 @@ Result<FeatureFile> Describe(const std::filesystem::path& recording, int every, 
   if (!looked) return tl::unexpected(looked.error());
   const image::GrayImage own = mask.Find();
   auto file = FeatureFile::Make();
-  if (!file) return file;
-  const auto described =
+  if (!file) return tl::unexpected(file.error());
+  auto described =
       ForEvery(recording, every, [&](const image::GrayImage& frame, int number) -> Result<void> {
         if (!on_progress(doing, static_cast<double>(number) / *count)) {
           return tl::unexpected(Ended());
@@ -63,7 +72,8 @@ Result<FeatureFile> Describe(const std::filesystem::path& recording, int every, 
         return file->Append(FindSceneFeatures(frame, own));
       });
   if (!described) return tl::unexpected(described.error());
-  return file;
+  for (std::string& each : *described) each = fmt::format("{}: {}", recording.string(), each);
+  return Described{std::move(*file), std::move(*described)};
 }
 
 class Aligner {
@@ -188,17 +198,20 @@ class Aligner {
 
 }  // namespace
 
-Result<Reference> Align(const std::filesystem::path& teach, const std::filesystem::path& replay,
-                        const AlignOptions& options, const AlignProgress& on_progress) {
-  const auto taught =
-      Describe(teach, options.teach_every, "looking at the taught one", on_progress);
+Result<Aligned> Align(const std::filesystem::path& teach, const std::filesystem::path& replay,
+                      const AlignOptions& options, const AlignProgress& on_progress) {
+  auto taught = Describe(teach, options.teach_every, "looking at the taught one", on_progress);
   if (!taught) return tl::unexpected(taught.error());
-  const auto replayed = Describe(replay, options.every, "looking at the replayed one", on_progress);
+  auto replayed = Describe(replay, options.every, "looking at the replayed one", on_progress);
   if (!replayed) return tl::unexpected(replayed.error());
-  if (taught->size() == 0 || replayed->size() == 0) {
+  if (taught->features.size() == 0 || replayed->features.size() == 0) {
     return Fail(ErrorCode::kInvalidArgument, "there is no frame to align");
   }
-  return Aligner(*taught, *replayed, options).Run(on_progress);
+  auto reference = Aligner(taught->features, replayed->features, options).Run(on_progress);
+  if (!reference) return tl::unexpected(reference.error());
+  std::vector<std::string> news = std::move(taught->news);
+  std::move(replayed->news.begin(), replayed->news.end(), std::back_inserter(news));
+  return Aligned{std::move(*reference), std::move(news)};
 }
 
 }  // namespace trailcast::trial

@@ -53,6 +53,7 @@ std::string RecordingTable(const std::vector<RecordingRow>& rows) {
     for (const std::string& visit : row.visits) visits += visit + '\n';
     if (visits != told) text += visits;
     told = std::move(visits);
+    for (const std::string& each : row.news) text += each + '\n';
   }
   return text;
 }

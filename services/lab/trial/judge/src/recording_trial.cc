@@ -185,6 +185,9 @@ Result<RecordingOutcome> RunRecordingTrial(const RecordingPair& pair, const Taug
   if (auto followed = Follow(taught, options, *view, outcome, on_progress); !followed) {
     return tl::unexpected(followed.error());
   }
+  for (const std::string& each : view->TakeNews()) {
+    outcome.row.news.push_back(fmt::format("{}: {}", outcome.row.replay, each));
+  }
   JudgeOptions judging = options.judging;
   judging.rate_hz = view->rate_hz();
   judging.width_px = KeepsSides(*disturbance) ? view->width_px() : 0;

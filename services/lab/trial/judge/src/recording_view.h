@@ -27,6 +27,8 @@ class RecordingView {
   [[nodiscard]] Result<std::optional<agent::Observation>> Next();
 
   [[nodiscard]] const std::vector<Shown>& order() const { return frames_.order(); }
+  // As FrameSequence has it.
+  [[nodiscard]] std::vector<std::string> TakeNews() { return frames_.TakeNews(); }
   [[nodiscard]] double rate_hz() const { return rate_hz_; }
   // Of the recording, undisturbed.
   [[nodiscard]] int width_px() const { return width_px_; }

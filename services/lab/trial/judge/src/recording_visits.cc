@@ -31,14 +31,16 @@ Result<std::string> Visit(const agent::RecordedRun& run, const Disturbance& dist
     last = std::move(*step);
     on_progress(frames / all);
   }
+  std::string news;
+  for (const std::string& each : view->TakeNews()) news += fmt::format("; {}", each);
   const auto met = session->TakeVisit();
-  if (!met) return fmt::format("it ends {}: {}", agent::ToString(last.state), last.reason);
+  if (!met) return fmt::format("it ends {}: {}{}", agent::ToString(last.state), last.reason, news);
   const auto refreshed = RefreshTaught(*met, route);
   if (!refreshed && refreshed.error().code == ErrorCode::kUnavailable) {
     return refreshed.error().message;
   }
   if (!refreshed) return tl::unexpected(refreshed.error());
-  return fmt::format("{}; now {} bytes", refresh::Describe(*refreshed), route.info.bytes);
+  return fmt::format("{}; now {} bytes{}", refresh::Describe(*refreshed), route.info.bytes, news);
 }
 
 }  // namespace

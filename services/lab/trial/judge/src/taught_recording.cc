@@ -11,17 +11,23 @@ Result<TaughtRecording> TeachRecording(const agent::RecordedRun& run,
   if (!device) return tl::unexpected(device.error());
   RouteRecorder recorder(run.frames.string(), (*device)->camera(), options);
   TaughtRecording taught{Fail(ErrorCode::kUnavailable, "no frames"), {}, 0, {}};
-  for (;; ++taught.frames) {
+  std::vector<int> numbers;  // in the recording, of the frames that can be read
+  while (true) {
     const auto seen = (*device)->Next();
     if (!seen) return tl::unexpected(seen.error());
     if (!*seen) break;
     if (const auto observed = recorder.Observe(**seen); !observed) {
-      return Wrap(observed.error(), fmt::format("frame {}", taught.frames));
+      return Wrap(observed.error(), fmt::format("frame {}", (*device)->frame()));
     }
+    numbers.push_back((*device)->frame());
     on_progress((*device)->drive_progress().value_or(0.0));
   }
   taught.route = recorder.Finish();
-  taught.spans = recorder.spans();
+  for (const FrameSpan& span : recorder.spans()) {
+    taught.spans.push_back({numbers.at(static_cast<std::size_t>(span.first)),
+                            numbers.at(static_cast<std::size_t>(span.last))});
+  }
+  taught.frames = numbers.empty() ? 0 : numbers.back() + 1;
   return taught;
 }
 

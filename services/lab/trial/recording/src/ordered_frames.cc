@@ -59,12 +59,17 @@ Result<void> OrderedFrames::ReadOn(int frame) {
   while (read_ <= frame) {
     auto next = frames_->Next();
     if (!next) return tl::unexpected(next.error());
+    const bool last_left_out = read_ > 0 && frame < frames_->size().value_or(0);
+    if (!*next && last_left_out) {
+      read_ = frame + 1;
+      return {};
+    }
     if (!*next) {
       return Fail(ErrorCode::kCorrupt, "the recording ends before frame {}, at frame {}", frame,
                   read_);
     }
     current_ = std::move(**next);
-    ++read_;
+    read_ = frames_->number() + 1;
   }
   return {};
 }

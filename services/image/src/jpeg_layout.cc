@@ -1,0 +1,82 @@
+#include "services/image/src/jpeg_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "services/image/src/exif.h"
+
+namespace trailcast::image {
+namespace {
+
+// ITU-T T.81, table B.1.
+constexpr std::uint8_t kTemporary = 0x01;
+constexpr std::uint8_t kFirstRestart = 0xD0;
+constexpr std::uint8_t kLastRestart = 0xD7;
+constexpr std::uint8_t kStart = 0xD8;
+constexpr std::uint8_t kEnd = 0xD9;
+constexpr std::uint8_t kScan = 0xDA;
+constexpr std::uint8_t kExif = 0xE1;
+constexpr std::size_t kLengthBytes = 2;
+
+// B.1.1.3: a frame's header has one of the markers SOF0 to SOF15, from which the numbers of three
+// other segments are missing.
+bool IsFrame(std::uint8_t marker) {
+  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+}
+
+// Those without a segment; 0 is no marker, but stands for a byte FF within a scan.
+bool StandsAlone(std::uint8_t marker) {
+  return marker == 0 || marker == kTemporary || (marker >= kFirstRestart && marker <= kLastRestart);
+}
+
+std::uint64_t BigEndian(std::span<const std::uint8_t> bytes) {
+  return std::uint64_t{bytes[0]} << 8U | bytes[1];
+}
+
+// The sample precision, then height and width.
+std::uint64_t PixelsOf(std::span<const std::uint8_t> frame) {
+  if (frame.size() < 5) return 0;
+  return BigEndian(frame.subspan(1)) * BigEndian(frame.subspan(3));
+}
+
+// `left` then begins behind the next marker; nothing: there is none.
+std::uint8_t TakeMarker(std::span<const std::uint8_t>& left) {
+  auto at = std::find(left.begin(), left.end(), 0xFF);
+  at = std::find_if(at, left.end(), [](std::uint8_t byte) { return byte != 0xFF; });
+  if (at == left.end()) {
+    left = {};
+    return 0;
+  }
+  left = left.subspan(static_cast<std::size_t>(at - left.begin()) + 1);
+  return *at;
+}
+
+}  // namespace
+
+bool IsJpeg(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 2> kJpeg = {0xFF, kStart};
+  return bytes.size() >= kJpeg.size() && std::equal(kJpeg.begin(), kJpeg.end(), bytes.begin());
+}
+
+JpegLayout ReadJpegLayout(std::span<const std::uint8_t> bytes) {
+  JpegLayout layout;
+  if (!IsJpeg(bytes)) return layout;
+  std::span<const std::uint8_t> left = bytes.subspan(2);
+  while (!left.empty()) {
+    const std::uint8_t marker = TakeMarker(left);
+    if (StandsAlone(marker)) continue;
+    layout.whole = marker == kEnd;
+    if (marker == kEnd || marker == kStart || left.size() < kLengthBytes) break;
+    const auto length = static_cast<std::size_t>(BigEndian(left));
+    if (length < kLengthBytes || length > left.size()) break;
+    const auto content = left.subspan(kLengthBytes, length - kLengthBytes);
+    if (IsFrame(marker)) layout.pixels = std::max(layout.pixels, PixelsOf(content));
+    if (marker == kScan) ++layout.scans;
+    if (marker == kExif) layout.orientation = ExifOrientation(content).value_or(layout.orientation);
+    left = left.subspan(length);
+  }
+  return layout;
+}
+
+}  // namespace trailcast::image
