@@ -19,8 +19,8 @@ namespace trailcast {
 // The cells of one line; nothing where a quote is not closed.
 [[nodiscard]] std::optional<std::vector<std::string>> CsvCells(const std::string& line);
 
-// The names of a file's columns, by its first line: without the mark (BOM) that some programs begin
-// a file with, without blanks about them. Empty cells where the file is empty.
+// The names of a file's columns, by its first line, without blanks about them. Empty cells where
+// the file is empty.
 [[nodiscard]] std::vector<std::string> CsvHeader(std::istream& file);
 
 // One line by the names of its columns. The first cell that is not what it should be is kept as

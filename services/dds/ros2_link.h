@@ -140,6 +140,8 @@ class Ros2Driver {
     int batteries = 0;           // who publishes the battery topic
     // Samples of odometry so far that Take left out.
     int unusable_odometry = 0;
+    // Why the newest message of odometry was left out. Empty: it was not, or none came.
+    std::string unfit_odometry{};
   };
   [[nodiscard]] virtual Peers peers() const = 0;
   // The topic of pictures or of odometry that several publish at once; empty: neither. One of them

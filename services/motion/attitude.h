@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 namespace trailcast::motion {
 
@@ -15,5 +16,7 @@ struct Attitude {
 // The heading of a body of any attitude: where its x axis points, seen from above. Nothing for
 // numbers that are none, or a quaternion of length 0.
 [[nodiscard]] std::optional<double> Heading(const Attitude& attitude);
+// Why there is none, for people.
+[[nodiscard]] std::string WithoutHeading(const Attitude& attitude);
 
 }  // namespace trailcast::motion

@@ -37,6 +37,11 @@ Finding JudgeTopics(const agent::RobotMeasures& measures, const dds::Ros2Options
         "publish sensors reliably or best effort, volatile; listen to commands the same");
   }
   if (measures.pictures == 0) return missing("no picture came on " + topics.ImageTopic(), looked);
+  if (measures.odometry == 0 && !measures.peers.unfit_odometry.empty()) {
+    return missing(fmt::format("what comes on {} is no odometry: {}", topics.OdometryTopic(),
+                               measures.peers.unfit_odometry),
+                   "mend what publishes it");
+  }
   if (!topics.odometry.empty() && measures.odometry == 0) {
     return missing("no odometry came on " + topics.OdometryTopic(),
                    measures.pictures > 0 ? "name its topic with --odom-topic" : looked);

@@ -148,7 +148,8 @@ void BagDevice::State::TellStep(const std::string& topic, const RecordedTimes& t
 Result<void> BagDevice::State::ReadOdometry() {
   if (!topics.odometry) return {};
   bag->Begin(*topics.odometry);
-  int damaged = 0;
+  int unfit = 0;
+  std::string why;  // the first
   StampSteps steps;
   std::vector<RecordedTimes> times;
   while (true) {
@@ -159,20 +160,19 @@ Result<void> BagDevice::State::ReadOdometry() {
       times.push_back({read->stamp, (*message)->logged_at});
       raw_poses.push_back(read->pose);
       TellStep(topics.odometry->name, times.back(), steps);
-    } else {
-      ++damaged;
+    } else if (unfit++ == 0) {
+      why = read.error().message;
     }
   }
   if (times.empty()) {
     return Fail(ErrorCode::kInvalidArgument,
-                "{}: no message of {} can be read as odometry; --odom-topic '' does without",
-                name.string(), topics.odometry->name);
+                "{}: none of {} messages of {} can be read as odometry{}; --odom-topic '' does "
+                "without",
+                name.string(), unfit, topics.odometry->name, why.empty() ? "" : " (" + why + ")");
   }
-  if (damaged > 0) {
-    Tell(fmt::format(
-        "{} of {} messages of {} are left out: damaged, numbers that are none, or an orientation "
-        "of length 0",
-        damaged, times.size() + static_cast<std::size_t>(damaged), topics.odometry->name));
+  if (unfit > 0) {
+    Tell(fmt::format("{} of {} messages of {} are left out: {}", unfit,
+                     times.size() + static_cast<std::size_t>(unfit), topics.odometry->name, why));
   }
   odometry = FollowClocks(times);
   return {};

@@ -55,6 +55,7 @@ Result<OdometryFile> OdometryFile::Read(const std::filesystem::path& file) {
   if (!numbers) return tl::unexpected(numbers.error());
   if (auto times = CheckTimes(*numbers, file.string()); !times)
     return tl::unexpected(times.error());
+  if (auto paced = CheckPace(*numbers, file); !paced) return tl::unexpected(paced.error());
   if (auto right = CheckHeadings(*numbers, file.string()); !right) {
     return tl::unexpected(right.error());
   }

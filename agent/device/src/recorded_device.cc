@@ -26,6 +26,7 @@ Result<void> RecordedDevice::ReadFrameTimes(const std::filesystem::path& file) {
   times_file_ = file;
   const auto rows = ReadNumbers(file, {"t_s"});
   if (!rows) return tl::unexpected(rows.error());
+  if (auto paced = CheckPace(*rows, file); !paced) return paced;
   for (const NumberRow& row : *rows) {
     const auto time = TimeIn(row, file);
     if (!time) return tl::unexpected(time.error());

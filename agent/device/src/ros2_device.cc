@@ -59,7 +59,7 @@ bool Ros2Device::State::ready(steady_clock::time_point now) const {
 }
 
 Error Ros2Device::State::Failure(const RobotWatch::Trouble& what) const {
-  return {ErrorCode::kUnavailable, TroubleText(run.topics, what, odometry_stands)};
+  return {ErrorCode::kUnavailable, TroubleText(run.topics, driver->peers(), what, odometry_stands)};
 }
 
 std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) {

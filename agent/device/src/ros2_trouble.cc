@@ -4,13 +4,17 @@
 
 namespace trailcast::agent {
 
-std::string TroubleText(const dds::Ros2Options& topics, const RobotWatch::Trouble& trouble,
-                        bool stamps_stand) {
+std::string TroubleText(const dds::Ros2Options& topics, const dds::Ros2Driver::Peers& peers,
+                        const RobotWatch::Trouble& trouble, bool stamps_stand) {
   using Part = RobotWatch::Trouble::Part;
   switch (trouble.part) {
     case Part::kCamera:
       return fmt::format("camera {}: {}", topics.ImageTopic(), trouble.what);
     case Part::kOdometry:
+      if (!peers.unfit_odometry.empty()) {
+        return fmt::format("odometry {}: it comes, but {}", topics.OdometryTopic(),
+                           peers.unfit_odometry);
+      }
       return fmt::format("odometry {}: {}{}", topics.OdometryTopic(), trouble.what,
                          stamps_stand ? ": it comes, but its stamps do not advance" : "");
     case Part::kScan:
@@ -36,6 +40,10 @@ std::string WhoIsMissing(const dds::Ros2Options& topics, const dds::Ros2Driver::
   } else if (!topics.odometry.empty() && !came.odometry) {
     text = fmt::format("{} {}", peers.odometers == 0 ? "nobody publishes" : "no odometry came on",
                        topics.OdometryTopic());
+    if (!peers.unfit_odometry.empty()) {
+      text = fmt::format("what comes on {} is no odometry: {}", topics.OdometryTopic(),
+                         peers.unfit_odometry);
+    }
   } else if (!topics.scan.empty() && !came.scan) {
     text = fmt::format("{} {}",
                        peers.scanners == 0 ? "nobody publishes" : "no scan that can be one came on",

@@ -11,6 +11,7 @@ namespace trailcast::agent {
 
 // `stamps_stand`: odometry comes, and says nothing new.
 [[nodiscard]] std::string TroubleText(const dds::Ros2Options& topics,
+                                      const dds::Ros2Driver::Peers& peers,
                                       const RobotWatch::Trouble& trouble, bool stamps_stand);
 
 // What came of a robot since the agent began.

@@ -1,11 +1,17 @@
 #include "agent/device/src/time_in.h"
 
 #include <cmath>
+#include <utility>
+
+#include "services/base/median.h"
 
 namespace trailcast::agent {
 namespace {
 
 constexpr double kLongest_s = 100.0 * 365.25 * 24.0 * 3600.0;
+// What is sensed while driving comes more often; of fewer rows nothing can be told.
+constexpr double kLongestPace_s = 5.0;
+constexpr std::size_t kFewRows = 10;
 
 }  // namespace
 
@@ -18,6 +24,20 @@ Result<SensorTime> TimeIn(const NumberRow& row, const std::filesystem::path& fil
                 file.string(), row.line, time_s);
   }
   return FromSeconds(time_s);
+}
+
+Result<void> CheckPace(const std::vector<NumberRow>& rows, const std::filesystem::path& file) {
+  if (rows.size() < kFewRows) return {};
+  std::vector<double> paces_s;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    paces_s.push_back(rows[i].cells[0] - rows[i - 1].cells[0]);
+  }
+  const double pace_s = Median(std::move(paces_s));
+  if (pace_s <= kLongestPace_s) return {};
+  return Fail(ErrorCode::kInvalidArgument,
+              "{}: by its times most rows are {:g} s apart, which is none of a drive: are they in "
+              "milliseconds? Expected seconds",
+              file.string(), pace_s);
 }
 
 }  // namespace trailcast::agent

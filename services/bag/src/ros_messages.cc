@@ -62,9 +62,8 @@ Result<RosOdometry> ReadOdometry(std::span<const std::uint8_t> message) {
   const motion::Attitude attitude{cdr.TakeDouble(), cdr.TakeDouble(), cdr.TakeDouble(),
                                   cdr.TakeDouble()};
   const auto heading_rad = motion::Heading(attitude);
-  if (cdr.failed() || !heading_rad || !std::isfinite(x_m) || !std::isfinite(y_m)) {
-    return Damaged(kOdometryType);
-  }
+  if (cdr.failed() || !std::isfinite(x_m) || !std::isfinite(y_m)) return Damaged(kOdometryType);
+  if (!heading_rad) return Fail(ErrorCode::kCorrupt, "{}", motion::WithoutHeading(attitude));
   odometry.pose = {x_m, y_m, *heading_rad};
   return odometry;
 }

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <sstream>
-#include <string_view>
+
+#include "services/base/text_file.h"
 
 namespace trailcast {
 
@@ -39,10 +39,8 @@ std::optional<std::vector<std::string>> CsvCells(const std::string& line) {
 }
 
 std::vector<std::string> CsvHeader(std::istream& file) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
   std::string line;
   std::getline(file, line);
-  if (line.starts_with(kMark)) line.erase(0, kMark.size());
   std::vector<std::string> names = CsvCells(line).value_or(std::vector<std::string>{line});
   for (std::string& name : names) {
     name.erase(0, name.find_first_not_of(" \t"));
@@ -66,7 +64,9 @@ void CsvLine::Refuse(const std::string& name, const std::string& text) {
 
 Result<void> ReadCsvTable(const std::filesystem::path& file, const std::string& header,
                           const std::string& what, const std::function<void(CsvLine&)>& read) {
-  std::ifstream in(file);
+  const auto all = ReadTextFile(file);
+  if (!all) return tl::unexpected(all.error());
+  std::istringstream in(*all);
   const std::vector<std::string> names = CsvHeader(in);
   if (names != CsvCells(header)) {
     return Fail(ErrorCode::kInvalidArgument, "{} is not {}: expected its first line to be {}",

@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
+#include <sstream>
 
 #include "services/base/csv_line.h"
 #include "services/base/number.h"
+#include "services/base/text_file.h"
 
 namespace trailcast {
 namespace {
@@ -37,21 +38,26 @@ std::optional<std::vector<std::size_t>> PlacesOf(const std::vector<std::string>&
   return places;
 }
 
+// For messages: what is no table at all may have lines of any length.
+std::string Clipped(const std::string& text) {
+  constexpr std::size_t kMostShown = 200;
+  return text.size() <= kMostShown ? text : text.substr(0, kMostShown) + "...";
+}
+
 }  // namespace
 
 Result<std::vector<NumberRow>> ReadNumbers(const std::filesystem::path& file,
                                            const std::vector<std::string>& columns,
                                            const std::vector<std::string>& optional) {
-  std::ifstream stream(file);
-  if (!stream) {
-    return Fail(ErrorCode::kNotFound, "cannot read {}: check that the file exists", file.string());
-  }
+  const auto text = ReadTextFile(file);
+  if (!text) return tl::unexpected(text.error());
+  std::istringstream stream(*text);
   const std::vector<std::string> names = CsvHeader(stream);
   const auto places = PlacesOf(names, columns, optional);
   if (!places) {
     return Fail(ErrorCode::kInvalidArgument,
                 "{}, line 1: expected a header with the columns {}; it has {}", file.string(),
-                fmt::join(columns, ","), fmt::join(names, ","));
+                fmt::join(columns, ","), Clipped(fmt::format("{}", fmt::join(names, ","))));
   }
   std::vector<NumberRow> rows;
   std::string line;
@@ -69,7 +75,7 @@ Result<std::vector<NumberRow>> ReadNumbers(const std::filesystem::path& file,
       if (!value) {
         return Fail(ErrorCode::kInvalidArgument,
                     "{}, line {}: expected a number under '{}', not '{}'", file.string(), number,
-                    names[place], (*cells)[place]);
+                    names[place], Clipped((*cells)[place]));
       }
       row.cells.push_back(*value);
     }

@@ -1,8 +1,48 @@
 #include "services/base/text_file.h"
 
+#include <cerrno>
 #include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
 
 namespace trailcast {
+
+Result<std::string> PlainText(std::string bytes) {
+  const std::string_view view(bytes);
+  if (view.starts_with("\xFF\xFE") || view.starts_with("\xFE\xFF")) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "it is written in UTF-16: save it as UTF-8 (spreadsheets call it 'CSV UTF-8')");
+  }
+  if (view.find('\0') != std::string_view::npos) {
+    return Fail(ErrorCode::kInvalidArgument, "it is no text: expected a text file in UTF-8");
+  }
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  std::string text;
+  text.reserve(bytes.size());
+  for (std::size_t i = view.starts_with(kMark) ? kMark.size() : 0; i < bytes.size(); ++i) {
+    const bool ends_with_two = bytes[i] == '\r' && i + 1 < bytes.size() && bytes[i + 1] == '\n';
+    if (!ends_with_two) text += bytes[i] == '\r' ? '\n' : bytes[i];
+  }
+  return text;
+}
+
+Result<std::string> ReadTextFile(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    const int error = errno;
+    return Fail(error == ENOENT ? ErrorCode::kNotFound : ErrorCode::kUnavailable,
+                "cannot read {}: {}", file.string(), std::generic_category().message(error));
+  }
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) {
+    return Fail(ErrorCode::kUnavailable, "cannot read {}: is it a file, and its disk well?",
+                file.string());
+  }
+  auto text = PlainText(std::move(bytes));
+  if (!text) return Wrap(text.error(), file.string());
+  return text;
+}
 
 Result<void> WriteTextFile(const std::filesystem::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::trunc);

@@ -1,7 +1,10 @@
 #include "services/program/toml.h"
 
+#include <iterator>
 #include <sstream>
 #include <string>
+
+#include "services/base/text_file.h"
 
 namespace trailcast::program {
 namespace {
@@ -27,8 +30,12 @@ std::string WithoutComment(const std::string& line) {
 }  // namespace
 
 std::vector<CLI::ConfigItem> Toml::from_config(std::istream& input) const {
+  const auto text = PlainText({std::istreambuf_iterator<char>(input), {}});
+  if (!text)
+    throw CLI::ConfigError("the configuration file cannot be read: " + text.error().message);
+  std::istringstream plain(*text);
   std::stringstream without_comments;
-  for (std::string line; std::getline(input, line);) {
+  for (std::string line; std::getline(plain, line);) {
     without_comments << WithoutComment(line) << '\n';
   }
   CLI::ConfigTOML reader;

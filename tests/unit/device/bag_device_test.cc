@@ -380,6 +380,16 @@ TEST_F(BagDeviceTest, OfASensorWithTwelveBitsThoseAreSeen) {
   }
 }
 
+TEST_F(BagDeviceTest, OdometryWithoutAnOrientationIsToldSo) {
+  Picture(milliseconds(0));
+  test::CdrWriter cdr;
+  cdr.PutHeader(kBegin, "odom").PutText("base_link");
+  for (int i = 0; i < 7; ++i) cdr.PutDouble(0.0);
+  Writer().Put("/odom", kOdometry, kBegin, cdr.Message());
+  EXPECT_THAT(ErrorOf(), AllOf(HasSubstr("none of 1 messages of /odom"),
+                               HasSubstr("orientation in it is the quaternion (0, 0, 0, 0)")));
+}
+
 TEST_F(BagDeviceTest, CompressedPicturesAreDecoded) {
   const auto jpeg = image::EncodeJpeg(test::WalkFrame(3), 100);
   ASSERT_TRUE(jpeg);

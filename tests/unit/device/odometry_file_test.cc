@@ -17,7 +17,7 @@ using testing::HasSubstr;
 class OdometryFileTest : public testing::Test {
  protected:
   Result<OdometryFile> Read(const std::string& text) {
-    std::ofstream(folder_ / "odo.csv") << text;
+    std::ofstream(folder_ / "odo.csv", std::ios::binary) << text;
     return OdometryFile::Read(folder_ / "odo.csv");
   }
   std::string ErrorOf(const std::string& text) {
@@ -68,6 +68,34 @@ TEST_F(OdometryFileTest, TimesOfNoClockAreRefused) {
 
 TEST_F(OdometryFileTest, AMarkAtTheFilesBeginningIsNoPartOfItsHeader) {
   EXPECT_EQ(ErrorOf("\xEF\xBB\xBFt_s,x_m,y_m,heading_rad\n0,0,0,0\n"), "no error");
+}
+
+TEST_F(OdometryFileTest, LinesMayEndAsTheyLike) {
+  for (const char* end : {"\n", "\r\n", "\r"}) {
+    const auto odometry = Read(fmt::format("t_s,x_m,y_m,heading_rad{0}0,0,0,0{0}1,2,0,0{0}", end));
+    ASSERT_TRUE(odometry) << odometry.error().message;
+    EXPECT_DOUBLE_EQ(odometry->At(FromSeconds(1.0))->x_m, 2.0);
+  }
+}
+
+TEST_F(OdometryFileTest, WhatIsNoTextInUtf8IsToldSo) {
+  const std::string header = "t_s,x_m,y_m,heading_rad\n0,0,0,0\n";
+  std::string wide = "\xFF\xFE";
+  for (const char c : header) wide += std::string{c, '\0'};
+  EXPECT_THAT(ErrorOf(wide), AllOf(HasSubstr("odo.csv"), HasSubstr("UTF-16"), HasSubstr("UTF-8")));
+  EXPECT_THAT(ErrorOf(header + '\0'), HasSubstr("no text"));
+  EXPECT_LT(ErrorOf(std::string(100'000, 'x')).size(), 400U);
+}
+
+TEST_F(OdometryFileTest, TimesInMillisecondsAreRefused) {
+  const auto with_times = [](double factor) {
+    std::string text = "t_s,x_m,y_m,heading_rad\n";
+    for (int i = 0; i < 20; ++i) text += fmt::format("{},{},0,0\n", factor * i / 30, i / 30.0);
+    return text;
+  };
+  EXPECT_EQ(ErrorOf(with_times(1.0)), "no error");
+  EXPECT_THAT(ErrorOf(with_times(1000.0)),
+              AllOf(HasSubstr("33.3333 s apart"), HasSubstr("milliseconds")));
 }
 
 TEST_F(OdometryFileTest, InterpolatesBetweenRows) {

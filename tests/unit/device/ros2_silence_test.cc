@@ -194,6 +194,23 @@ TEST_F(Ros2DeviceTest, NeedsOdometryUnlessToldThatThereIsNone) {
   EXPECT_THAT(seen.error().message, HasSubstr("no odometry came on /robot1/odom"));
 }
 
+TEST_F(Ros2DeviceTest, SaysWhyOdometryThatComesIsNone) {
+  run_.patience = kSoonTired;
+  Open();
+  dds::Ros2Driver::Peers peers;
+  peers.cameras = peers.odometers = peers.bases = 1;
+  peers.unfit_odometry = "the orientation in it is none";
+  robot_.Meet(peers);
+  auto next = Next();
+  const auto seen = Until(next, [this] {
+    Say(false);
+    GoOn();
+  });
+  ASSERT_FALSE(seen);
+  EXPECT_THAT(seen.error().message,
+              AllOf(HasSubstr("/robot1/odom"), HasSubstr("the orientation in it is none")));
+}
+
 TEST_F(Ros2DeviceTest, WaitsForASilentRobotOnlyUntilItIsToldToEnd) {
   Open();
   ASSERT_TRUE(SaySeen());

@@ -183,12 +183,14 @@ class Ros2DdsDriver final : public Ros2Driver {
   // Whether a sample is to be passed on.
   [[nodiscard]] bool Counts(Ros2Speaker& speaker, const Reader& reader,
                             const dds_sample_info_t& info);
+  void NoteOdometry(const Result<Ros2Odometry>& odometry, std::vector<Ros2Sensed>& sensed);
 
   DriverState state_;
-  std::atomic<int> unusable_odometry_ = 0;
-  mutable std::mutex mutex_;  // guards the next two
+  mutable std::mutex mutex_;  // guards what follows
   Ros2Speaker image_speaker_;
   Ros2Speaker odometry_speaker_;
+  int unusable_odometry_ = 0;
+  std::string unfit_odometry_;
 };
 
 }  // namespace
@@ -265,6 +267,14 @@ std::string Ros2DdsDriver::crowded() const {
   return odometry_speaker_.crowded(now) ? state_.options.OdometryTopic() : std::string();
 }
 
+void Ros2DdsDriver::NoteOdometry(const Result<Ros2Odometry>& odometry,
+                                 std::vector<Ros2Sensed>& sensed) {
+  if (odometry) sensed.emplace_back(*odometry);
+  const std::lock_guard guard(mutex_);
+  if (!odometry) ++unusable_odometry_;
+  unfit_odometry_ = odometry ? std::string() : odometry.error().message;
+}
+
 std::vector<Ros2Sensed> Ros2DdsDriver::Take(std::chrono::milliseconds max_wait) {
   std::vector<Ros2Sensed> sensed;
   DriverState& s = state_;
@@ -274,11 +284,7 @@ std::vector<Ros2Sensed> Ros2DdsDriver::Take(std::chrono::milliseconds max_wait) 
     (void)s.odometry->Take(kMaxSamplesPerTake,
                            [&](const void* sample, const dds_sample_info_t& info) {
                              if (!Counts(odometry_speaker_, *s.odometry, info)) return;
-                             if (auto pose = OdometryFromWire(sample)) {
-                               sensed.emplace_back(*pose);
-                             } else {
-                               ++unusable_odometry_;
-                             }
+                             NoteOdometry(OdometryFromWire(sample), sensed);
                            });
   }
   if (s.scan) {
@@ -332,7 +338,6 @@ Ros2Driver::Peers Ros2DdsDriver::peers() const {
   const DriverState& s = state_;
   Peers peers;
   peers.tried = s.network.tried;
-  peers.unusable_odometry = unusable_odometry_;
   peers.cameras = s.image.matched();
   peers.bases = s.command.matched();
   std::vector<std::string> mismatches{
@@ -340,6 +345,9 @@ Ros2Driver::Peers Ros2DdsDriver::peers() const {
       Mismatch(s.options.CommandTopic(), s.command.refused_policy())};
   if (s.odometry) {
     peers.odometers = s.odometry->matched();
+    const std::lock_guard guard(mutex_);
+    peers.unusable_odometry = unusable_odometry_;
+    peers.unfit_odometry = unfit_odometry_;
     mismatches.push_back(Mismatch(s.options.OdometryTopic(), s.odometry->refused_policy()));
   }
   if (s.scan) {

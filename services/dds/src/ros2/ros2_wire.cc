@@ -196,12 +196,17 @@ Ros2Sensed ImageFromWire(const void* sample, bool compressed) {
                    .data = FromBytes(wire.data)};
 }
 
-std::optional<Ros2Odometry> OdometryFromWire(const void* sample) {
+Result<Ros2Odometry> OdometryFromWire(const void* sample) {
   const auto& wire = *static_cast<const nav_msgs_msg_dds__Odometry_*>(sample);
   const auto& position = wire.pose.pose.position;
-  const auto& attitude = wire.pose.pose.orientation;
-  const auto heading_rad = motion::Heading({attitude.x, attitude.y, attitude.z, attitude.w});
-  if (!heading_rad || !std::isfinite(position.x) || !std::isfinite(position.y)) return std::nullopt;
+  const auto& q = wire.pose.pose.orientation;
+  const motion::Attitude attitude{q.x, q.y, q.z, q.w};
+  if (!std::isfinite(position.x) || !std::isfinite(position.y)) {
+    return Fail(ErrorCode::kCorrupt, "the position in it is ({:g}, {:g}), which is none",
+                position.x, position.y);
+  }
+  const auto heading_rad = motion::Heading(attitude);
+  if (!heading_rad) return Fail(ErrorCode::kCorrupt, "{}", motion::WithoutHeading(attitude));
   return Ros2Odometry{FromTime(wire.header.stamp), {position.x, position.y, *heading_rad}};
 }
 

@@ -32,7 +32,8 @@ using UseSample = std::function<Result<void>(const void* sample)>;
 
 // Nothing: the sample holds numbers that are none, or a scan or range that can be no sensor's.
 [[nodiscard]] Ros2Sensed ImageFromWire(const void* sample, bool compressed);
-[[nodiscard]] std::optional<Ros2Odometry> OdometryFromWire(const void* sample);
+// The error says which number, for people.
+[[nodiscard]] Result<Ros2Odometry> OdometryFromWire(const void* sample);
 [[nodiscard]] std::optional<Ros2Scan> ScanFromWire(const void* sample);
 [[nodiscard]] std::optional<Ros2Range> RangeFromWire(const void* sample, std::size_t sensor);
 [[nodiscard]] std::optional<Ros2Imu> ImuFromWire(const void* sample);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <variant>
 #include <vector>
 
 #include "services/base/number.h"
+#include "services/base/text_file.h"
 #include "services/program/toml.h"
 
 namespace trailcast::agent {
@@ -94,10 +94,9 @@ Result<sim::CameraModel> FindOrRead(const std::string& word) {
 }  // namespace
 
 Result<sim::CameraModel> ReadCameraFile(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) {
-    return Fail(ErrorCode::kNotFound, "cannot read the camera file {}", file.string());
-  }
+  const auto text = ReadTextFile(file);
+  if (!text) return Wrap(text.error(), "camera file");
+  std::istringstream stream(*text);
   sim::CameraModel camera;
   camera.name = file.stem().string();
   auto parsed = Parse(stream, std::move(camera));

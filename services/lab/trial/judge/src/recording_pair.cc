@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
 
 #include "services/base/number.h"
+#include "services/base/text_file.h"
 #include "services/lab/trial/recording/odometry_noise.h"
 
 namespace trailcast::trial {
@@ -108,8 +108,9 @@ const char* ToString(PairKind kind) {
 }
 
 Result<std::vector<RecordingPair>> ReadPairs(const fs::path& file, const fs::path& root) {
-  std::ifstream stream(file);
-  if (!stream) return Fail(ErrorCode::kNotFound, "cannot read the pairs of {}", file.string());
+  const auto text = ReadTextFile(file);
+  if (!text) return Wrap(text.error(), "pairs");
+  std::istringstream stream(*text);
   std::string line;
   std::getline(stream, line);
   const std::vector<std::string> names = Split(line);
@@ -121,7 +122,7 @@ Result<std::vector<RecordingPair>> ReadPairs(const fs::path& file, const fs::pat
   }
   std::vector<RecordingPair> pairs;
   for (int number = 2; std::getline(stream, line); ++number) {
-    if (line.empty() || line == "\r") continue;
+    if (line.empty()) continue;
     const std::vector<std::string> values = Split(line);
     if (values.size() != names.size()) {
       return Fail(ErrorCode::kInvalidArgument, "{}, line {}: expected {} cells, not {}",
