@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
+#include "tests/support/ros2_bytes.h"
 #include "tests/support/ros_messages.h"
 
 namespace trailcast::bag {
@@ -64,6 +66,50 @@ TEST(ReadOdometry, OfTheSecondEncoding) {
   ASSERT_TRUE(odometry) << odometry.error().message;
   EXPECT_DOUBLE_EQ(odometry->pose.x_m, 1.0);
   EXPECT_DOUBLE_EQ(odometry->pose.y_m, 2.0);
+}
+
+// Also padded, and of a newer definition that says more.
+TEST(RosMessages, OfOtherPeoplesWritersAreRead) {
+  constexpr nanoseconds kTheirs{1'700'000'000'500'000'000};
+  for (const bool little : {true, false}) {
+    for (const int more : {0, 1, 3, 64}) {
+      SCOPED_TRACE(testing::Message() << (little ? "little" : "big") << " endian, " << more);
+      const Bytes image_bytes = test::Recorded(test::kImage, little, more);
+      const auto image = ReadImage(image_bytes);
+      ASSERT_TRUE(image) << image.error().message;
+      EXPECT_EQ(image->stamp, kTheirs);
+      EXPECT_EQ(image->picture.width_px, 3U);
+      EXPECT_EQ(image->picture.height_px, 2U);
+      EXPECT_EQ(image->picture.encoding, "16UC1");
+      EXPECT_EQ(image->picture.big_endian, !little);
+      EXPECT_EQ(image->picture.step, 6U);
+      EXPECT_EQ(Bytes(image->picture.bytes.begin(), image->picture.bytes.end()),
+                (Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
+
+      const Bytes jpeg_bytes = test::Recorded(test::kCompressedImage, little, more);
+      const auto jpeg = ReadCompressedImage(jpeg_bytes);
+      ASSERT_TRUE(jpeg) << jpeg.error().message;
+      EXPECT_EQ(jpeg->stamp, kTheirs);
+      EXPECT_EQ(Bytes(jpeg->bytes.begin(), jpeg->bytes.end()), (Bytes{0xFF, 0xD8, 0xFF, 0xD9, 7}));
+
+      const auto odometry = ReadOdometry(test::Recorded(test::kOdometry, little, more));
+      ASSERT_TRUE(odometry) << odometry.error().message;
+      EXPECT_EQ(odometry->stamp, kTheirs);
+      EXPECT_EQ(odometry->pose.x_m, 1.5);
+      EXPECT_EQ(odometry->pose.y_m, -2.5);
+      EXPECT_NEAR(odometry->pose.heading_rad, 2.0 * std::atan2(0.6, 0.8), 1e-12);
+    }
+  }
+}
+
+TEST(ReadOdometry, AnOrientationThatIsNoneIsTold) {
+  test::CdrWriter cdr;
+  cdr.PutHeader(kStamp, "odom").PutText("base_link");
+  for (int i = 0; i < 7; ++i) cdr.PutDouble(0.0);
+  const auto odometry = ReadOdometry(cdr.Message());
+  ASSERT_FALSE(odometry);
+  EXPECT_NE(odometry.error().message.find("quaternion (0, 0, 0, 0)"), std::string::npos)
+      << odometry.error().message;
 }
 
 TEST(ReadOdometry, NumbersThatAreNoneAreDamage) {
