@@ -59,6 +59,11 @@ class SteppedRobot {
     const std::lock_guard guard(lock_);
     peers_ = peers;
   }
+  // Several publish this topic of it; empty: no more.
+  void Crowd(const std::string& topic) {
+    const std::lock_guard guard(lock_);
+    crowded_ = topic;
+  }
   [[nodiscard]] Time now() const {
     const std::lock_guard guard(lock_);
     return now_;
@@ -91,6 +96,10 @@ class SteppedRobot {
     [[nodiscard]] Peers peers() const override {
       const std::lock_guard guard(robot_.lock_);
       return robot_.peers_;
+    }
+    [[nodiscard]] std::string crowded() const override {
+      const std::lock_guard guard(robot_.lock_);
+      return robot_.crowded_;
     }
 
    private:
@@ -126,6 +135,7 @@ class SteppedRobot {
   int done_ = 0;
   std::string fails_;
   dds::Ros2Driver::Peers peers_;
+  std::string crowded_;
   dds::Ros2Command latest_;
   int commands_ = 0;
 };

@@ -109,6 +109,32 @@ TEST_F(Ros2DeviceTest, StopsTheRobotWhenTheCameraIsSilentAndGoesOnWhenItIsBack) 
   EXPECT_EQ(told_.back().what, "");
 }
 
+TEST_F(Ros2DeviceTest, StandsWhereTwoPublishWhatItHearsAndGoesOnWhenOneIsGone) {
+  Open();
+  ASSERT_TRUE(SaySeen());
+  ASSERT_TRUE(DrivesAhead());
+  robot_.Crowd("/robot1/odom");
+  auto next = Next();
+  for (int frame = 0; frame < 3; ++frame) {
+    GoOn();
+    Say();
+  }
+  EXPECT_EQ(robot_.told(), kRos2Stand);
+  EXPECT_THAT(device_->Ailment(), AllOf(HasSubstr("several publish /robot1/odom"),
+                                        HasSubstr("a namespace of its own")));
+  const auto is_said = [](const RobotDevice::Halt& halt) {
+    return halt.what.find("several publish") != std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(told_.begin(), told_.end(), is_said), 1) << "said once";
+  robot_.Crowd("");
+  const auto seen = Until(next, [this] {
+    GoOn();
+    Say();
+  });
+  ASSERT_TRUE(seen) << seen.error().message;
+  EXPECT_TRUE(DrivesAhead());
+}
+
 TEST_F(Ros2DeviceTest, GivesUpWhenTheCameraStaysSilent) {
   run_.patience = kSoonTired;
   Open();
