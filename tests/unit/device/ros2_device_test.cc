@@ -107,21 +107,23 @@ TEST_F(Ros2DeviceTest, WithoutOdometryADriveIsOverWhenThePictureStandsAfterItHas
   run_.still_at_end = milliseconds(150);
   Open();
   for (int i = 0; i < 10; ++i) {
-    const auto seen = SayUntilSeen(false);
+    const auto seen = SaySeen(false);
     ASSERT_TRUE(seen) << seen.error().message;
     ASSERT_TRUE(seen->has_value()) << "it has not moved yet";
+    robot_.Pass(kCameraFrame);
     stamp_ += kCameraFrame;
   }
   for (int i = 0; i < 10; ++i) {
     GoOn();
-    const auto seen = SayUntilSeen(false);
+    const auto seen = SaySeen(false);
     ASSERT_TRUE(seen) << seen.error().message;
     ASSERT_TRUE(seen->has_value()) << "it moves";
   }
   int standing = 0;
   for (; standing < 20; ++standing) {
+    robot_.Pass(kCameraFrame);
     stamp_ += kCameraFrame;
-    const auto seen = SayUntilSeen(false);
+    const auto seen = SaySeen(false);
     ASSERT_TRUE(seen) << seen.error().message;
     if (!seen->has_value()) break;
   }
