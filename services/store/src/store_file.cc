@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <system_error>
 
 #include "services/base/durable_file.h"
@@ -116,6 +118,11 @@ Result<void> StoreFile::Inspect() const {
   if (size == 0) return {};  // new, or its making was interrupted
   SqliteHeader header;
   const ssize_t read = pread(descriptor_, header.bytes.data(), SqliteHeader::kBytes, 0);
+  // Its making was cut off, before its first page or after it; SQLite undoes it by the journal.
+  const bool is_being_made = HasContent(path_.string() + "-journal");
+  const bool is_blank = std::all_of(header.bytes.begin(), header.bytes.end(),
+                                    [](std::uint8_t byte) { return byte == 0; });
+  if (is_being_made && is_blank) return {};
   if (read != static_cast<ssize_t>(SqliteHeader::kBytes) || !header.IsSqlite() ||
       header.application_id() != kApplicationId) {
     return Fail(ErrorCode::kCorrupt,
@@ -131,7 +138,8 @@ Result<void> StoreFile::Inspect() const {
                 path_.string(), version, kSchemaVersion);
   }
   // With a log beside it the file may rightly be shorter: SQLite then decides when it recovers.
-  if (size < PromisedBytes(header) && !HasContent(path_.string() + "-wal")) {
+  const bool has_log = is_being_made || HasContent(path_.string() + "-wal");
+  if (size < PromisedBytes(header) && !has_log) {
     return Fail(ErrorCode::kCorrupt,
                 "route store {} is cut short: {} bytes, expected {}; restore a copy, or move it "
                 "away to begin a new one",
