@@ -35,9 +35,18 @@ TEST_F(BadInputTest, AFrameThatCannotBeRead) {
   const auto walk = Walk("walk", 100);
   Write("walk/00100.png", "\x89PNG and then nothing");
   const auto run = RunAgent(TeachWords(walk, "a.db"));
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.output, AllOf(HasSubstr("1 of 101 pictures cannot be read"),
+                                HasSubstr("00100.png"), HasSubstr("left out")));
+}
+
+TEST_F(BadInputTest, FramesOfWhichTooManyCannotBeRead) {
+  const auto walk = Walk("walk", 100);
+  for (int i = 100; i < 120; ++i) Write(fmt::format("walk/{:05}.png", i), "");
+  const auto run = RunAgent(TeachWords(walk, "a.db"));
   EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.output,
-              AllOf(HasSubstr("00100.png"), HasSubstr("segments taught before are kept")));
+  EXPECT_THAT(run.output, AllOf(HasSubstr("00100.png"), HasSubstr("too many to go on"),
+                                HasSubstr("segments taught before are kept")));
 }
 
 TEST_F(BadInputTest, AFrameOfAnotherSizeMidway) {
