@@ -297,7 +297,8 @@ std::vector<std::string> CutIn(const std::string& line) {
       open.back().has_key = true;
     } else if (c == ',' || c == '}' || c == ']') {
       Map& map = open.back();
-      if (map.is_map && !map.has_key) cut.push_back(line.substr(map.from, i - map.from));
+      const bool is_empty = i == map.from;
+      if (map.is_map && !map.has_key && !is_empty) cut.push_back(line.substr(map.from, i - map.from));
       map.from = i + 1;
       map.has_key = false;
       if (c != ',') open.pop_back();
@@ -308,6 +309,7 @@ std::vector<std::string> CutIn(const std::string& line) {
 
 TEST(ApiDescription, NoTextIsCutAtAComma) {
   EXPECT_THAT(CutIn("a: {description: 'b, c', enum: [d, e], f: {g: h}}"), testing::IsEmpty());
+  EXPECT_THAT(CutIn("a: {items: {}}"), testing::IsEmpty());
   EXPECT_THAT(CutIn("a: {type: b, description: c, or d}"), testing::ElementsAre(" or d"));
   for (const File& file : Files()) {
     if (std::string(file.path) != "/api/openapi.yaml") continue;

@@ -103,7 +103,10 @@ TEST_F(ScoutTest, TeachesAnewOnceATurnTellsThatItsCameraStandsOnItsSide) {
   EXPECT_THAT(said.text(), AllOf(HasSubstr("the camera looks on its side"),
                                  HasSubstr("--camera-roll 90"), HasSubstr("is discarded")));
   std::vector<route::RouteInfo> kept;
-  for (const auto& route : *swarm_.OpenStore("scout")->FindRoutesByName("hall")) {
+  const auto store = swarm_.OpenStore("scout");
+  const auto routes = store->FindRoutesByName("hall");
+  ASSERT_TRUE(routes);
+  for (const route::RouteInfo& route : *routes) {
     if (route.standing != route::Standing::kRetired) kept.push_back(route);
   }
   ASSERT_THAT(kept, SizeIs(1));
