@@ -298,7 +298,8 @@ std::vector<std::string> CutIn(const std::string& line) {
     } else if (c == ',' || c == '}' || c == ']') {
       Map& map = open.back();
       const bool is_empty = i == map.from;
-      if (map.is_map && !map.has_key && !is_empty) cut.push_back(line.substr(map.from, i - map.from));
+      if (map.is_map && !map.has_key && !is_empty)
+        cut.push_back(line.substr(map.from, i - map.from));
       map.from = i + 1;
       map.has_key = false;
       if (c != ',') open.pop_back();
