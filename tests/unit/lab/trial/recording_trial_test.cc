@@ -106,6 +106,21 @@ TEST_F(RecordingTrialTest, ThreadsAndOrderChangeNothing) {
   }
 }
 
+TEST_F(RecordingTrialTest, EachPairIsTaughtAtItsOwnRate) {
+  std::vector<RecordingPair> pairs{Pair("second"), Pair("second")};
+  pairs[0].teach.rate_hz = pairs[0].replay.rate_hz = 5.0;
+  pairs[1].teach.rate_hz = pairs[1].replay.rate_hz = 30.0;
+  const auto together = Run(pairs);
+  const auto alone = Run({pairs[1]});
+  ASSERT_THAT(together, SizeIs(2));
+  ASSERT_THAT(alone, SizeIs(1));
+  const auto& said = alone[0].replayed.said;
+  ASSERT_THAT(together[1].replayed.said, SizeIs(said.size()));
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    EXPECT_EQ(together[1].replayed.said[i].teach_frame, said[i].teach_frame) << i;
+  }
+}
+
 TEST_F(RecordingTrialTest, ADisturbedReplayIsJudgedByWhatItShows) {
   RecordingPair pair = Pair("first", PairKind::kIdentity);
   pair.disturbance = "every=3";

@@ -94,7 +94,8 @@ class Batch {
     std::string visits = pair.visits_disturbance;
     for (const agent::RecordedRun& visit : pair.visits)
       visits.append("+").append(visit.frames.string());
-    return teachings_[{pair.teach.frames, pair.teach.odometry, std::move(visits)}];
+    return teachings_[{pair.teach.frames, pair.teach.odometry, pair.teach.rate_hz,
+                       std::move(visits)}];
   }
 
   void FindOwnTurns(std::size_t index, Teaching& teaching) {
@@ -130,8 +131,10 @@ class Batch {
   const RecordingProgress& on_progress_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;  // guards what follows
-  // By the recording, its odometry, and who visits.
-  std::map<std::tuple<std::filesystem::path, std::filesystem::path, std::string>, Teaching>
+  // By the recording, its odometry and frame rate, and who visits.
+  std::map<
+      std::tuple<std::filesystem::path, std::filesystem::path, std::optional<double>, std::string>,
+      Teaching>
       teachings_;
   std::vector<std::optional<Result<RecordingOutcome>>> outcomes_;
   std::vector<double> shares_;
