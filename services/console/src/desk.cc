@@ -47,7 +47,7 @@ class TellErrand final : public ErrandFor<std::vector<fleet::RobotsWord>> {
  private:
   [[nodiscard]] Result<std::vector<fleet::RobotsWord>> Outcome() const override {
     auto words = telling_.Words();
-    if (words.empty()) return Fail(ErrorCode::kUnavailable, "no robot is heard");
+    if (words.empty()) return Fail(ErrorCode::kNotFound, "no robot is heard");
     return words;
   }
 

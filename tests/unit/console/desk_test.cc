@@ -110,6 +110,7 @@ TEST_F(DeskTest, WhoDoesNotAnswerIsNamed) {
   EXPECT_FALSE(told->front().answered);
   const auto all = hasty_.Tell(NowOrder::kStop, {NowWhom::kAll, ""}, "");
   ASSERT_FALSE(all);
+  EXPECT_EQ(all.error().code, ErrorCode::kNotFound);
   EXPECT_THAT(all.error().message, HasSubstr("no robot is heard"));
   const auto sent = hasty_.Send({.agent = AgentId("robot1"), .id = "trip", .orders = "wait 1"});
   ASSERT_FALSE(sent);

@@ -235,7 +235,10 @@ void Web::Tell(NowOrder order, const fleet::NowTarget& target, const Request& re
       MakesStand(order) ? Result<std::string>(ReasonIfAny(request.body)) : ReadReason(request.body);
   if (!reason) return Refuse(response, 400, reason.error().message);
   const auto words = desk_.Tell(order, target, ReasonOf(access_.WhoIs(request), *reason));
-  if (!words) return Refuse(response, 503, words.error().message);
+  if (!words) {
+    const bool nobody = words.error().code == ErrorCode::kNotFound;
+    return Refuse(response, nobody ? 504 : 503, words.error().message);
+  }
   commands_.Count(order, *words);
   if (target.whom == NowWhom::kAll)
     return Answer(response, 200, OneLine({{"robots", fleet::WordsJson(*words)}}));
