@@ -14,8 +14,8 @@ struct BagRun {
   std::filesystem::path bag;               // a file, or the folder of a rosbag2 recording
   std::optional<std::string> image_topic;  // nothing: the only one with pictures
   std::optional<std::string> odom_topic;   // nothing: the only one, if any; empty: none
-  // What the base was told (Observation::heard): by the topic that is named, or the only one with
-  // commands, if any.
+  // Frames tell what the base was told (Observation::heard), by the topic that is named or by the
+  // only one with commands, if there is one.
   bool hear_commands = false;
   std::optional<std::string> command_topic{};
 };

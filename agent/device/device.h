@@ -49,7 +49,7 @@ class RobotDevice {
   // that is known.
   [[nodiscard]] virtual std::string Ailment() { return {}; }
 
-  // What befell its clocks and its odometry since the last call, a line each for people.
+  // Tells people, a line each, what befell its clocks and its odometry since the last call.
   [[nodiscard]] virtual std::vector<std::string> TakeNews() { return {}; }
 
   // For people: "webcam 320x240", "recorded 160x120".

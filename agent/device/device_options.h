@@ -40,7 +40,8 @@ enum class DeviceUse : std::uint8_t { kTeach, kReplay, kOnDuty };
 // simulated one is told a speed, a real one when its drive is over. On duty are no recordings.
 void AddDeviceOptions(CLI::App& command, DeviceOptions& options, DeviceUse use);
 
-// Those of them for a recording: --frames and what goes with it, and --bag. Only one of both.
+// Adds those of them for a recording: --frames with what goes with it, and --bag, which exclude
+// each other.
 struct RecordingFlags {
   CLI::Option* frames = nullptr;
   CLI::Option* bag = nullptr;

@@ -8,7 +8,8 @@
 
 namespace trailcast::agent {
 
-// Of a recorded message: what its sensor stamped (0: nothing), and when it was recorded.
+// A recorded message has two times: its sensor stamped one (0: it did not), and it was recorded at
+// the other.
 struct RecordedTimes {
   SensorTime stamp{};
   std::chrono::nanoseconds logged_at{};
@@ -17,9 +18,9 @@ struct RecordedTimes {
 // The messages of one topic, in the order in which they were recorded, by clocks that go forward.
 struct RecordedClock {
   struct Message {
-    // As a StampClock has it: later than those before; nothing for one that came out of turn.
+    // A StampClock makes it later than those before. A message that came out of turn has none.
     std::optional<SensorTime> taken{};
-    // When it came, likewise.
+    // The recorder's time is made to go forward likewise.
     SensorTime came{};
   };
   std::vector<Message> messages{};

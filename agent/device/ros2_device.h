@@ -36,7 +36,7 @@ struct Ros2Run {
   std::chrono::milliseconds still_at_end{0};
   // Asked while waiting for the robot: the drive is over.
   std::function<bool()> stop = [] { return false; };
-  // What time it is, for all but the robot's own stamps. Asked by two threads.
+  // Tells the time for all but the robot's own stamps. Two threads ask it.
   std::function<std::chrono::steady_clock::time_point()> clock = std::chrono::steady_clock::now;
 };
 

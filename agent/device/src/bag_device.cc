@@ -23,9 +23,9 @@ constexpr std::chrono::milliseconds kOdometryNear{500};
 // Stamps whose distance from the recorder's clock differs by more are of different clocks.
 constexpr std::chrono::seconds kRecordersSameClock{2};
 
-// What a base was told longer ago it may not do any more.
+// A base may no longer do what it was told before so long.
 constexpr std::chrono::seconds kCommandHolds{1};
-// More than a message waits to be recorded.
+// No message waits so long to be recorded.
 constexpr std::chrono::seconds kStampsStep{1};
 
 struct Commanded {
@@ -213,7 +213,7 @@ Result<RecordedTimes> BagDevice::State::TimesOf(const bag::Message& message) con
   return RecordedTimes{*stamp, message.logged_at};
 }
 
-// What a clock does is known once all of it is.
+// Only all of a topic's times tell what its clocks do.
 Result<void> BagDevice::State::ReadPictureTimes() {
   bag->Begin(topics.image);
   std::vector<RecordedTimes> all;

@@ -47,7 +47,7 @@ class Arrivals {
         came_(logged_at_),
         last_(logged_at_) {}
 
-  // Of the message after the one that was asked for before.
+  // Returns it for the message after the one that was asked for before.
   [[nodiscard]] SensorTime Came(std::size_t i) {
     last_ = std::max(last_ + nanoseconds(1), After(i));
     return last_;
@@ -80,7 +80,7 @@ class Arrivals {
   const std::vector<RecordedTimes>& topic_;
   nanoseconds usual_;
   nanoseconds longest_;
-  // Of the last message that came by the recorder's clock.
+  // These are the times of the last message that came by the recorder's clock.
   nanoseconds logged_at_;
   SensorTime came_;
   SensorTime last_;  // of the last of all

@@ -69,18 +69,6 @@ class Areas {
   std::array<int, std::size_t{kColumns} * kRows> count_{};
 };
 
-// Those that are in both pictures; both are in the order of their ids.
-std::vector<teach::MovedFeature> Found(const std::vector<route::TrackedFeature>& before,
-                                       const std::vector<route::TrackedFeature>& now) {
-  std::vector<teach::MovedFeature> found;
-  auto old = before.begin();
-  for (const route::TrackedFeature& feature : now) {
-    while (old->id != feature.id) ++old;
-    found.push_back({*old, feature});
-  }
-  return found;
-}
-
 // What the flow moves a feature by.
 struct Shift {
   double u_px = 0.0;
@@ -133,7 +121,7 @@ teach::PictureFlow Sum(const teach::PictureFlow& one, const teach::PictureFlow& 
 }  // namespace
 
 StillPictureWatch::Look StillPictureWatch::Compare(const image::GrayImage& picture) {
-  std::vector<teach::MovedFeature> found = Found(features_, tracker_.Track(picture));
+  std::vector<teach::MovedFeature> found = teach::MovedBetween(features_, tracker_.Track(picture));
   Look look;
   look.flow = teach::FlowOf(found, kNoise_px);
   const Areas areas(features_, picture.width, picture.height);

@@ -2,7 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace trailcast::agent {
+
+double RollAfter(double roll_deg, double turn_deg) {
+  return std::fmod(roll_deg + turn_deg + 360.0, 360.0);
+}
 
 const char* HangsText(double roll_deg) { return roll_deg == 180.0 ? "upside down" : "on its side"; }
 

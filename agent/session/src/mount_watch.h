@@ -38,6 +38,9 @@ class MountWatch {
   teach::RollByTurns by_measured_;
 };
 
+// The roll, 0 to 360, of a camera whose pictures are turned by so much more than they were.
+[[nodiscard]] double RollAfter(double roll_deg, double turn_deg);
+
 // "upside down", "on its side".
 [[nodiscard]] const char* HangsText(double roll_deg);
 

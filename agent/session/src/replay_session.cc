@@ -11,6 +11,7 @@
 #include "agent/session/src/eyes.h"
 #include "agent/session/src/features/feature_follower.h"
 #include "agent/session/src/frame_pace.h"
+#include "agent/session/src/mount_watch.h"
 #include "agent/session/src/place/known_route.h"
 #include "agent/session/src/place/place_keeper.h"
 #include "agent/session/src/place/view_follower.h"
@@ -233,7 +234,7 @@ ReplayStep ReplaySession::State::Follow(const Seen& seen) {
 // What was seen so far was not what is there. It stands in this frame, and begins with the next.
 ReplayStep ReplaySession::State::Turned(double turn_deg, const Observation& observation) {
   vision::IntakeOptions intake = eyes.intake();
-  intake.roll_deg = std::fmod(intake.roll_deg + turn_deg + 360.0, 360.0);
+  intake.roll_deg = RollAfter(intake.roll_deg, turn_deg);
   turned = fmt::format(
       "{}: its pictures are turned by {:g} degrees from here on; --camera-roll {:g} has it so from "
       "the beginning",
@@ -254,8 +255,7 @@ ReplayStep ReplaySession::State::Turned(double turn_deg, const Observation& obse
 // Nothing that it would do on such pictures is right: left is right, or up.
 ReplayStep ReplaySession::State::StandMisturned() {
   misturned = true;
-  const double roll_deg =
-      std::fmod(eyes.intake().roll_deg + *eyes.mount().roll_by_told_deg() + 360.0, 360.0);
+  const double roll_deg = RollAfter(eyes.intake().roll_deg, *eyes.mount().roll_by_told_deg());
   standing = {ReplayState::kLost, Trust::kLost,
               fmt::format("{}. It stands rather than steer by that: {} with --camera-roll {:g}",
                           eyes.mount().Text(),

@@ -1,7 +1,6 @@
 #include "agent/session/teach_session.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <deque>
 #include <utility>
@@ -194,7 +193,7 @@ Result<std::optional<TaughtAnew>> TeachSession::LookAtMount(const Observation& o
   const auto watched = std::move(mount_);
   if (*roll_deg == 0.0) return std::nullopt;
   TaughtAnew anew{options_.intake, watched->watch.Text()};
-  anew.intake.roll_deg = std::fmod(options_.intake.roll_deg + *roll_deg + 360.0, 360.0);
+  anew.intake.roll_deg = RollAfter(options_.intake.roll_deg, *roll_deg);
   if (!watched->kept.whole()) {
     return Fail(ErrorCode::kInvalidArgument,
                 "{}. It is too late to turn what was taught before this first turn: teach it again "

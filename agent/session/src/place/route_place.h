@@ -17,9 +17,9 @@ struct RoutePoint {
 };
 
 // The belief over a route's segments as they become known: its units, and which segment is where.
-// The units are metres. Where the route was taught without odometry they are seconds of teaching in
-// motion, as long as it takes for kViewsInUnit key views to follow each other there: so it is what
-// changes in the picture that decides how well a place is known, and no clock or frame rate.
+// The units are metres. Where the route was taught without odometry, a unit is the time in which
+// the scout in motion took kViewsInUnit key views thereabouts. So what changes in the picture
+// decides how well a place is known, and neither a clock nor a frame rate does.
 class RoutePlace {
  public:
   static constexpr double kViewsInUnit = 4.0;
