@@ -67,10 +67,20 @@ Result<void> Set(const std::map<std::string, Field>& fields, const CLI::ConfigIt
               item.inputs.empty() ? "" : item.inputs.front(), Expected(field->second));
 }
 
+Result<std::vector<CLI::ConfigItem>> Items(std::istream& stream) {
+  try {
+    return program::Toml().from_config(stream);
+  } catch (const CLI::Error& unreadable) {
+    return Fail(ErrorCode::kInvalidArgument, "{}", unreadable.what());
+  }
+}
+
 Result<sim::CameraModel> Parse(std::istream& stream, sim::CameraModel camera) {
   std::string model;
   const auto fields = Fields(camera, model);
-  for (const CLI::ConfigItem& item : program::Toml().from_config(stream)) {
+  const auto items = Items(stream);
+  if (!items) return tl::unexpected(items.error());
+  for (const CLI::ConfigItem& item : *items) {
     if (item.name == "++" || item.name == "--") continue;  // a section's begin and end
     if (auto set = Set(fields, item); !set) return tl::unexpected(set.error());
   }

@@ -83,6 +83,10 @@ TEST_F(CameraFileTest, RefusesValuesThatAreNone) {
   EXPECT_THAT(ErrorOf("width = -5\n"), HasSubstr("mine.toml"));
 }
 
+TEST_F(CameraFileTest, SaysThatTextOfAnotherEncodingBehindAByteOrderMarkIsNotRead) {
+  EXPECT_THAT(ErrorOf("\xEF\xBB\xBF\xFF\xFEw"), AllOf(HasSubstr("mine.toml"), HasSubstr("UTF-16")));
+}
+
 TEST_F(CameraFileTest, KnowsTheBuiltInCamerasByName) {
   EXPECT_EQ(CameraFromWord("wide")->width, 320);
   const auto unknown = CameraFromWord("kodak");
