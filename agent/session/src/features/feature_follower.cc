@@ -49,7 +49,7 @@ FeatureFollower::FeatureFollower(const ReplayMethodOptions& options,
       passing_(options.passing),
       look_around_(AsPrinted(options.method) ? 0.0 : options.look_around_rad),
       lens_turn_(std::min(kLensTurn_rad, look_around_.furthest_rad())),
-      anywhere_(options.anywhere) {
+      start_(options.anywhere ? Start::kAnywhere : Start::kAtBeginning) {
   if (options.take_experience && !AsPrinted(options.method)) {
     experience_.emplace(scout.width, scout.height);
   }
@@ -283,7 +283,7 @@ void FeatureFollower::LookAroundFirst(const Seen& seen, Standing& standing) {
 replay::FollowStep FeatureFollower::LookAroundForAny(const Seen& seen, Standing& standing) {
   replay::FollowStep step;
   if (lens_turn_.turns()) step.command = {0.0, lens_turn_.turn_rate_radps()};
-  if (!anywhere_ || follower_ || standing.trust != Trust::kLost || !nowhere_.empty()) return step;
+  if (!LooksAnywhere() || standing.trust != Trust::kLost || !nowhere_.empty()) return step;
   TurnToLook(seen, standing);
   step.command = {0.0, look_around_.turn_rate_radps()};
   return step;

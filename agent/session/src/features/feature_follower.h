@@ -55,7 +55,7 @@ class FeatureFollower {
 
   // It was put somewhere, and does not know yet where that is.
   [[nodiscard]] bool seeks_start() const {
-    return place_finder_ || (anywhere_ && !follower_ && !was_lost_);
+    return !follower_ && (start_ == Start::kWhereLeft || start_ == Start::kAnywhere);
   }
   // Driven backwards, it comes along the route.
   [[nodiscard]] bool reverses() const { return follower_ && follower_->segment().reverse; }
@@ -63,6 +63,16 @@ class FeatureFollower {
   [[nodiscard]] const replay::Follower* follower() const { return follower_.get(); }
 
  private:
+  // Where the robot looks for its place on the route. It looks until it begins to follow. From
+  // kAtBeginning and kWhereLeft it goes on to kAnywhere where it is not found; a robot that has
+  // followed its path and lost it begins again with kLostItsPath.
+  enum class Start {
+    kAtBeginning,  // the route's, without looking
+    kWhereLeft,    // by an earlier run, or where it is said to stand
+    kAnywhere,     // on the route
+    kLostItsPath,  // anywhere on the route, after it was followed for a while
+  };
+
   // So far from where its features are, the belief holds the robot to be somewhere else.
   static constexpr double kElsewhere = 1.0;
   static constexpr double kElsewhereDriving = 2.0;  // of a robot that it moves
@@ -72,6 +82,9 @@ class FeatureFollower {
 
   [[nodiscard]] bool by_odometry() const {
     return eyes_.knows_motion() && UsesOdometry(options_.method);
+  }
+  [[nodiscard]] bool LooksAnywhere() const {
+    return !follower_ && (start_ == Start::kAnywhere || start_ == Start::kLostItsPath);
   }
   // Beginning (feature_follower_begin.cc). False: there is nothing to follow yet.
   [[nodiscard]] bool BeginNext(const Seen& seen, Standing& standing);
@@ -137,12 +150,11 @@ class FeatureFollower {
   // Come along the route while it was sure, since it began at the beginning or was held to be
   // elsewhere all at once: the end of a lap looks like its beginning.
   double came_m_ = 0.0;
-  std::optional<double> sure_along_;         // at the last frame; nothing: it was not sure
-  double turns_unseen_s_ = 0.0;              // on the spot, since something agreed
-  std::optional<PlaceFinder> place_finder_;  // until it has found the place
-  bool anywhere_;                            // on the route it may be, until it is found
-  bool was_lost_ = false;                    // it had found its path before
-  std::string not_there_;                    // where it looks along the whole route: why
+  std::optional<double> sure_along_;  // at the last frame; nothing: it was not sure
+  double turns_unseen_s_ = 0.0;       // on the spot, since something agreed
+  Start start_;
+  std::optional<PlaceFinder> place_finder_;  // in kWhereLeft, until it has found the place
+  std::string not_there_;                    // in kAnywhere and kLostItsPath: why it looks there
   std::vector<RoutePoint> to_compare_;       // places that it may be at,
   std::vector<PlaceByFeatures> compared_;    // and what their features say
   std::string nowhere_;                      // why it begins at none of them

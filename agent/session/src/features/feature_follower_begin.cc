@@ -50,6 +50,7 @@ void FeatureFollower::Learn(const route::Segment& segment) {
 }
 
 void FeatureFollower::GoOnFrom(const LeftAt& left) {
+  start_ = Start::kWhereLeft;
   place_finder_.emplace(left);
   if (left.magnification) search_.hand_over().KnowMagnification(*left.magnification);
   ConfidenceOptions confidence = confidence_.options();
@@ -86,8 +87,8 @@ void FeatureFollower::Begin(const route::Segment& segment) {
 
 // Of a robot that stands, for want of a segment to follow.
 bool FeatureFollower::BeginNext(const Seen& seen, Standing& standing) {
-  if (place_finder_) return BeginWhereLeft(seen, standing);
-  if (anywhere_ && !follower_) return BeginAnywhere(seen, standing);
+  if (!follower_ && start_ == Start::kWhereLeft) return BeginWhereLeft(seen, standing);
+  if (LooksAnywhere()) return BeginAnywhere(seen, standing);
   const std::size_t next = follower_ ? follower_->segment().index.value() + 1 : 0;
   if (route_.has(next)) {
     Begin(route_.segments()[next]);
@@ -149,16 +150,17 @@ bool FeatureFollower::BeginWhereLeft(const Seen& seen, Standing& standing) {
 // from now on.
 bool FeatureFollower::LooksElsewhere(Standing& standing) {
   const bool lost = confidence_.ever_sure();
-  if (lost ? !LooksAgainIfLost() : !options_.else_anywhere || anywhere_) return false;
-  not_there_ = lost            ? "it has lost its path (" + standing.reason + "): "
-               : place_finder_ ? "it is not where it was left: "
-                               : "it is not at the route's start: ";
+  if (lost ? !LooksAgainIfLost() : !options_.else_anywhere || start_ == Start::kAnywhere) {
+    return false;
+  }
+  not_there_ = lost                          ? "it has lost its path (" + standing.reason + "): "
+               : start_ == Start::kWhereLeft ? "it is not where it was left: "
+                                             : "it is not at the route's start: ";
   if (lost) {
     focal_ = follower_->focal();
     confidence_.SeekAnew("the path is not found again");
   }
-  anywhere_ = true;
-  was_lost_ = lost;
+  start_ = lost ? Start::kLostItsPath : Start::kAnywhere;
   follower_.reset();
   fresh_.reset();
   place_finder_.reset();
