@@ -188,6 +188,15 @@ struct Following {
 // How operators have a robot stand.
 enum class AgentHold : std::uint8_t { kNone = 0, kPaused = 1, kStopped = 2 };
 
+// How a message came, as the exchange that took it saw. Not on the wire, and no part of what is
+// said: what is equal stays so however it came.
+struct Arrival {
+  std::string address{};  // from where: IP address and port; empty: not known
+  std::string network{};  // the network interface towards there; empty: not known
+  std::chrono::duration<double, std::milli> late{0};  // by both clocks: below 0 where these differ
+  bool operator==(const Arrival&) const { return true; }
+};
+
 // trailcast/agents
 struct AgentStatus {
   AgentId agent{};
@@ -211,6 +220,7 @@ struct AgentStatus {
   std::optional<std::uint8_t> link_percent{};     // of its radio, likewise
   std::string software{};                         // its version, for people
   std::optional<Following> following{};           // of a follower that is on its way
+  Arrival arrival{};
   bool operator==(const AgentStatus&) const = default;
 };
 
@@ -344,6 +354,41 @@ struct FollowedStretches {
   bool operator==(const FollowedStretches&) const = default;
 };
 
+// trailcast/reach_requests: every agent and server is asked whom it hears.
+struct ReachRequest {
+  AgentId client{};
+  std::uint64_t request = 0;  // echoed in the reports
+  bool relayed = false;       // by `server`, for those who do not hear its client
+  AgentId server{};           // empty unless it is relayed
+  bool operator==(const ReachRequest&) const = default;
+};
+
+struct HeardAgent {
+  AgentId agent{};
+  AgentRole role = AgentRole::kOperator;
+  std::chrono::milliseconds heard_for{0};  // without a break
+  std::chrono::milliseconds age{0};        // since it spoke last
+  double late_ms = 0.0;                    // Arrival::late of that
+  std::optional<double> round_trip_ms{};   // if it was measured
+  std::string address{};                   // as Arrival has it
+  std::string network{};
+  bool operator==(const HeardAgent&) const = default;
+};
+
+// trailcast/reach_reports: its answer, of many that are heard in several parts.
+struct ReachReport {
+  AgentId agent{};   // who hears these
+  AgentId client{};  // who has asked, and which request it was
+  std::uint64_t request = 0;
+  AgentId server{};  // who has passed the question on; empty: nobody
+  AgentRole role = AgentRole::kOperator;
+  bool star = false;                // it meets route servers alone; as its exchange says
+  std::vector<HeardAgent> heard{};  // those after the first `before`, by name
+  std::uint32_t before = 0;
+  bool relayed = false;  // by that server
+  bool operator==(const ReachReport&) const = default;
+};
+
 // Not a topic: a peer's agent is gone (its liveliness ended or it said good-bye).
 struct AgentGone {
   AgentId agent{};
@@ -356,7 +401,7 @@ using AnyMessage =
                  CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, NowCommand,
                  NowAnswer, mission::Mission, mission::Report, MissionRequest, MissionReply,
                  DriveCommand, GlanceRequest, Glance, NetworkEdit, NetworkRequest, NetworkReply,
-                 FollowedStretches, AgentGone>;
+                 FollowedStretches, ReachRequest, ReachReport, AgentGone>;
 
 // One of these. Its copies are made in one source file: where each file that hands messages on made
 // its own of two dozen types, compilers were busy with nothing else.

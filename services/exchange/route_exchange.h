@@ -35,6 +35,8 @@ enum class Topic : std::uint8_t {
   kNetworkRequests,
   kNetworkReplies,
   kFollowed,
+  kReachRequests,
+  kReachReports,
 };
 
 struct TopicUse {
@@ -71,6 +73,7 @@ struct TopicUse {
 [[nodiscard]] TopicUse GlanceTopics();      // of who looks through robots' cameras
 [[nodiscard]] TopicUse NetworkTopics();     // of who asks for ways over routes
 [[nodiscard]] TopicUse JoinerTopics();      // of who joins routes
+[[nodiscard]] TopicUse ReachTopics();       // of who asks all whom they hear
 [[nodiscard]] TopicUse ObserverTopics();    // the same without edits
 
 // The bus on which routes are shared. Implemented in process (InProcessExchange, for tests) and

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "services/exchange/reach_desk.h"
 #include "services/exchange/route_exchange.h"
 #include "services/exchange/servers_there.h"
 #include "services/program/name_claim.h"
@@ -21,8 +22,8 @@ struct Vitals {
   std::optional<std::uint8_t> link_percent{};
 };
 
-// An agent as its peers see it: claims its name, publishes its status, and notes whether a server
-// is heard. Owned by the thread that owns the exchange.
+// An agent as its peers see it: claims its name, publishes its status, notes whether a server is
+// heard, and answers who asks whom it hears. Owned by the thread that owns the exchange.
 class Presence {
  public:
   using Clock = std::chrono::steady_clock;
@@ -94,12 +95,14 @@ class Presence {
     std::uint64_t namesake = 0;  // the instance of another process of this name; 0: none
   };
   std::map<AgentId, Told> told_;
-  std::uint64_t namesake_ = 0;  // heard
-  std::string name_trouble_;    // as it was told in the log last
+  std::optional<exchange::ReachDesk> reach_;  // unless the process has one that answers already
+  std::uint64_t namesake_ = 0;                // heard
+  std::string name_trouble_;                  // as it was told in the log last
 };
 
 // Topics of a role, and the statuses of all agents, overheard where the role does not read them,
 // and what servers tell of those who are not heard: a process must see whether its name is taken.
+// And those by which it is asked whom it hears.
 [[nodiscard]] exchange::TopicUse WithAgents(exchange::TopicUse use);
 
 }  // namespace trailcast::program

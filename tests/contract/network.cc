@@ -88,6 +88,10 @@ Message ProbeFor(Topic topic) {
       return exchange::NetworkReply{.server = kProbe, .client = kProbe};
     case Topic::kFollowed:
       return exchange::FollowedStretches{.agent = kProbe, .key = key};
+    case Topic::kReachRequests:
+      return exchange::ReachRequest{.client = kProbe};
+    case Topic::kReachReports:
+      return exchange::ReachReport{.agent = kProbe, .client = kProbe};
     case Topic::kAgents:
       break;
   }
@@ -123,6 +127,8 @@ bool IsProbe(const Message& message) {
     AgentId operator()(const exchange::NetworkRequest& m) { return m.client; }
     AgentId operator()(const exchange::NetworkReply& m) { return m.server; }
     AgentId operator()(const exchange::FollowedStretches& m) { return m.agent; }
+    AgentId operator()(const exchange::ReachRequest& m) { return m.client; }
+    AgentId operator()(const exchange::ReachReport& m) { return m.agent; }
     AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
   };
   return std::visit(Sender(), message) == kProbe;

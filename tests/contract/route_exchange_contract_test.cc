@@ -217,6 +217,31 @@ TEST_P(RouteExchangeContract, CarriesTheLargestGlance) {
                   Topic::kGlances);
 }
 
+TEST_P(RouteExchangeContract, CarriesWhoHearsWhom) {
+  ExpectRoundTrip(exchange::ReachRequest{AgentId("o"), ~0ULL, true, AgentId("s")},
+                  Topic::kReachRequests);
+  const exchange::HeardAgent heard{.agent = AgentId(std::string(64, 'r')),
+                                   .role = exchange::AgentRole::kScout,
+                                   .heard_for = std::chrono::milliseconds(~0U),
+                                   .age = std::chrono::milliseconds(1),
+                                   .late_ms = -exchange::kMaxLate_ms,
+                                   .round_trip_ms = exchange::kMaxLate_ms,
+                                   .address = std::string(exchange::kMaxAddressBytes, '1'),
+                                   .network = std::string(exchange::kMaxNetworkBytes, 'w')};
+  exchange::ReachReport report{
+      .agent = AgentId("r"),
+      .client = AgentId("o"),
+      .request = ~0ULL,
+      .server = AgentId("s"),
+      .role = exchange::AgentRole::kServer,
+      .star = true,
+      .heard = std::vector<exchange::HeardAgent>(exchange::kMaxHeardAgents, heard),
+      .before = ~0U,
+      .relayed = true};
+  report.heard.back().round_trip_ms.reset();
+  ExpectRoundTrip(report, Topic::kReachReports);
+}
+
 TEST_P(RouteExchangeContract, CarriesWhatBecameOfAMission) {
   ExpectRoundTrip(mission::Report{.agent = AgentId("r"),
                                   .mission = std::string(64, 'm'),

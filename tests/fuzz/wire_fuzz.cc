@@ -221,6 +221,34 @@ class Samples {
     wire.passed = input_.ConsumeIntegral<std::uint32_t>();
     wire.lost = input_.ConsumeIntegral<std::uint32_t>();
   }
+  void Fill(trailcast_wire_ReachRequest& wire) {
+    wire.client = Name();
+    wire.request = input_.ConsumeIntegral<std::uint64_t>();
+    wire.relayed = Octet();
+    wire.server = Name();
+  }
+  void Fill(trailcast_wire_ReachReport& wire) {
+    wire.agent = Name();
+    wire.client = Name();
+    wire.request = input_.ConsumeIntegral<std::uint64_t>();
+    wire.server = Name();
+    wire.role = Octet();
+    wire.star = Octet();
+    wire.heard._length = Count();
+    wire.heard._buffer = Many<trailcast_wire_HeardAgent>(heard_, wire.heard._length);
+    wire.before = Number();
+    wire.relayed = Octet();
+  }
+  void Fill(trailcast_wire_HeardAgent& wire) {
+    wire.agent = Name();
+    wire.role = Octet();
+    wire.heard_for_ms = Number();
+    wire.age_ms = Number();
+    wire.late_ms = Real();
+    wire.round_trip_ms = Real();
+    wire.address = Text();
+    wire.network = Text();
+  }
   void Fill(trailcast_wire_NowCommand& wire) {
     wire.client = Name();
     wire.number = input_.ConsumeIntegral<std::uint64_t>();
@@ -409,6 +437,7 @@ class Samples {
   std::deque<std::vector<trailcast_wire_MissionRecord>> missions_;
   std::deque<std::vector<trailcast_wire_GivenCommand>> commands_;
   std::deque<std::vector<trailcast_wire_NowAnswer>> answers_;
+  std::deque<std::vector<trailcast_wire_HeardAgent>> heard_;
 };
 
 // A query is judged when it is answered; one with no number in it equals nothing, itself included.
@@ -518,6 +547,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case Topic::kFollowed:
       FillAndTakeIn<trailcast_wire_FollowedStretches>(topic, input);
+      break;
+    case Topic::kReachRequests:
+      FillAndTakeIn<trailcast_wire_ReachRequest>(topic, input);
+      break;
+    case Topic::kReachReports:
+      FillAndTakeIn<trailcast_wire_ReachReport>(topic, input);
       break;
   }
   return 0;

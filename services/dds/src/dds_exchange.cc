@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "services/dds/src/arrivals.h"
 #include "services/dds/src/domain/joined.h"
 #include "services/dds/src/domain/star_or_mesh.h"
 #include "services/dds/src/keys_watch.h"
@@ -104,6 +105,7 @@ class DdsExchange : public exchange::RouteExchange {
   std::optional<KeysWatch> keys_watch_;  // with keys
   StrangerWatch strangers_;
   VersionWatch versions_;
+  Arrivals arrivals_;
 };
 
 Result<void> DdsExchange::Join() {
@@ -112,6 +114,7 @@ Result<void> DdsExchange::Join() {
   if (!joined) return tl::unexpected(joined.error());
   joined_ = *std::move(joined);
   versions_.Forget();
+  arrivals_.Forget();
   star_or_mesh_.Begin(Clock::now());
   if (options_.serves && !joined_->meeting.fixed_ports) {
     TellOfDiscovery(
@@ -173,6 +176,12 @@ Result<void> DdsExchange::Publish(const Message& message) {
   }
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     said_.insert_or_assign(exchange::InstanceOf(message), *status);
+  }
+  if (const auto* report = std::get_if<exchange::ReachReport>(&message);
+      report != nullptr && !report->relayed) {
+    exchange::ReachReport said = *report;
+    said.star = joined_->meeting.star;
+    return Write(*topic, said);
   }
   if (const auto* announcement = std::get_if<exchange::RouteAnnouncement>(&message)) {
     if (auto opened = OpenForSegmentsOf(announcement->info.key); !opened) return opened;
@@ -267,8 +276,12 @@ void DdsExchange::TakeFrom(const Place& place, Reader& reader, std::vector<Messa
   const auto keep = [&](const dds_sample_info_t& info, Result<Message> message) {
     if (!message) {
       ++dropped_;
-    } else if (KeepListenedTo(place, *message) &&
-               IsAuthentic(reader, info.publication_handle, *message)) {
+      return;
+    }
+    if (auto* status = std::get_if<exchange::AgentStatus>(&*message)) {
+      status->arrival = arrivals_.Of(reader, info);
+    }
+    if (KeepListenedTo(place, *message) && IsAuthentic(reader, info.publication_handle, *message)) {
       received.push_back({info.source_timestamp, *std::move(message)});
     }
   };
@@ -383,6 +396,7 @@ void DdsExchange::LookAtPeers(Clock::time_point now) {
   // What cannot be read now is there the next time.
   (void)joined_->peers.Look({.seen =
                                  [&](const auto& participant, const auto& said) {
+                                   arrivals_.See(participant, said.address);
                                    if (options_.keys) strangers_.See(participant, said, now);
                                    versions_.See(participant, said);
                                  },
@@ -393,6 +407,7 @@ void DdsExchange::LookAtPeers(Clock::time_point now) {
                                  },
                              .gone =
                                  [&](const auto& participant) {
+                                   arrivals_.Lose(participant);
                                    strangers_.Lose(participant);
                                    versions_.Lose(participant);
                                  }});

@@ -30,6 +30,13 @@ std::string PolicyName(std::uint32_t id) {
   }
 }
 
+using EndpointPtr =
+    std::unique_ptr<dds_builtintopic_endpoint_t, void (*)(dds_builtintopic_endpoint_t*)>;
+
+EndpointPtr FindWriter(dds_entity_t reader, dds_instance_handle_t writer) {
+  return {dds_get_matched_publication_data(reader, writer), &dds_builtintopic_free_endpoint};
+}
+
 }  // namespace
 
 Error DdsError(dds_return_t code, const std::string& doing) {
@@ -166,9 +173,13 @@ Result<Reader> Reader::CreateBuiltin(const Participant& participant, dds_entity_
   return Reader(handle);
 }
 
+std::optional<dds_guid_t> Reader::ParticipantOf(dds_instance_handle_t writer) const {
+  const EndpointPtr found = FindWriter(handle(), writer);
+  return found ? std::optional(found->participant_key) : std::nullopt;
+}
+
 std::optional<std::string> Reader::PartitionOf(dds_instance_handle_t writer) const {
-  const std::unique_ptr<dds_builtintopic_endpoint_t, void (*)(dds_builtintopic_endpoint_t*)> found(
-      dds_get_matched_publication_data(handle(), writer), &dds_builtintopic_free_endpoint);
+  const EndpointPtr found = FindWriter(handle(), writer);
   if (!found) return std::nullopt;
   std::uint32_t count = 0;
   char** names = nullptr;

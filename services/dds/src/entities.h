@@ -129,6 +129,8 @@ class Reader : public Entity {
   [[nodiscard]] int matched() const;
   // The policy for which a writer was last refused; empty: none was.
   [[nodiscard]] std::string refused_policy() const;
+  // Whose a writer is that a sample came from; nothing if that writer is gone.
+  [[nodiscard]] std::optional<dds_guid_t> ParticipantOf(dds_instance_handle_t writer) const;
   // The partition of a writer that a sample came from; nothing if that writer is gone, or writes in
   // none or several.
   [[nodiscard]] std::optional<std::string> PartitionOf(dds_instance_handle_t writer) const;

@@ -49,6 +49,8 @@ constexpr std::array kTable = {
     Row{T::kNetworkRequests, {false,    16,        kForever}},
     Row{T::kNetworkReplies,  {false,    16,        kForever}},
     Row{T::kFollowed,        {false,    16,        kForever}},
+    Row{T::kReachRequests,   {false,    16,        kForever, /*best_effort=*/true}},
+    Row{T::kReachReports,    {false,    16,        kForever}},
 };
 // clang-format on
 

@@ -406,6 +406,38 @@ Message From(const trailcast_wire_RouteFollowers& wire) {
   return all;
 }
 
+Message From(const trailcast_wire_ReachRequest& wire) {
+  return ReachRequest{.client = AgentId(Text(wire.client)),
+                      .request = wire.request,
+                      .relayed = wire.relayed != 0,
+                      .server = AgentId(Text(wire.server))};
+}
+
+Message From(const trailcast_wire_ReachReport& wire) {
+  ReachReport report{.agent = AgentId(Text(wire.agent)),
+                     .client = AgentId(Text(wire.client)),
+                     .request = wire.request,
+                     .server = AgentId(Text(wire.server)),
+                     .role = static_cast<AgentRole>(wire.role),
+                     .star = wire.star != 0,
+                     .heard = {},
+                     .before = wire.before,
+                     .relayed = wire.relayed != 0};
+  for (const trailcast_wire_HeardAgent& heard : Elements(wire.heard)) {
+    const bool measured = !(heard.round_trip_ms < 0.0);
+    report.heard.push_back(
+        {.agent = AgentId(Text(heard.agent)),
+         .role = static_cast<AgentRole>(heard.role),
+         .heard_for = std::chrono::milliseconds(heard.heard_for_ms),
+         .age = std::chrono::milliseconds(heard.age_ms),
+         .late_ms = heard.late_ms,
+         .round_trip_ms = measured ? std::optional(heard.round_trip_ms) : std::nullopt,
+         .address = Text(heard.address),
+         .network = Text(heard.network)});
+  }
+  return report;
+}
+
 Message Copy(Topic topic, const void* sample) {
   switch (topic) {
     case Topic::kRoutes:
@@ -452,6 +484,10 @@ Message Copy(Topic topic, const void* sample) {
       return From(*static_cast<const trailcast_wire_NetworkReply*>(sample));
     case Topic::kFollowed:
       return From(*static_cast<const trailcast_wire_FollowedStretches*>(sample));
+    case Topic::kReachRequests:
+      return From(*static_cast<const trailcast_wire_ReachRequest*>(sample));
+    case Topic::kReachReports:
+      return From(*static_cast<const trailcast_wire_ReachReport*>(sample));
     case Topic::kAgents:
       break;
   }

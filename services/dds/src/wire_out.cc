@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <vector>
 
 #include "services/dds/src/wire.h"
@@ -36,6 +38,11 @@ class TextArrays {
  private:
   std::deque<std::vector<char*>> arrays_;
 };
+
+std::uint32_t Milliseconds32(std::chrono::milliseconds span) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(span.count(), 0, kMost));
+}
 
 std::vector<std::uint32_t> Values(const std::vector<SegmentIndex>& indices) {
   std::vector<std::uint32_t> values;
@@ -486,6 +493,41 @@ Result<void> With(const FollowedStretches& message, const UseSample& use) {
   return use(&sample);
 }
 
+Result<void> With(const ReachRequest& message, const UseSample& use) {
+  const trailcast_wire_ReachRequest sample{
+      .client = Lend(message.client.value()),
+      .request = message.request,
+      .relayed = static_cast<std::uint8_t>(message.relayed ? 1 : 0),
+      .server = Lend(message.server.value())};
+  return use(&sample);
+}
+
+Result<void> With(const ReachReport& message, const UseSample& use) {
+  std::vector<trailcast_wire_HeardAgent> heard;
+  heard.reserve(message.heard.size());
+  for (const HeardAgent& each : message.heard) {
+    heard.push_back({.agent = Lend(each.agent.value()),
+                     .role = static_cast<std::uint8_t>(each.role),
+                     .heard_for_ms = Milliseconds32(each.heard_for),
+                     .age_ms = Milliseconds32(each.age),
+                     .late_ms = each.late_ms,
+                     .round_trip_ms = each.round_trip_ms.value_or(-1.0),
+                     .address = Lend(each.address),
+                     .network = Lend(each.network)});
+  }
+  trailcast_wire_ReachReport sample{};
+  sample.agent = Lend(message.agent.value());
+  sample.client = Lend(message.client.value());
+  sample.request = message.request;
+  sample.server = Lend(message.server.value());
+  sample.role = static_cast<std::uint8_t>(message.role);
+  sample.star = message.star ? 1 : 0;
+  Lend(heard, sample.heard);
+  sample.before = message.before;
+  sample.relayed = message.relayed ? 1 : 0;
+  return use(&sample);
+}
+
 Result<void> With(const AgentGone& message, const UseSample&) {
   return Fail(ErrorCode::kInvalidArgument, "AgentGone of {} is no sample of any topic",
               message.agent.value());
@@ -494,30 +536,31 @@ Result<void> With(const AgentGone& message, const UseSample&) {
 }  // namespace
 
 const dds_topic_descriptor_t& TypeOf(Topic topic) {
-  static constexpr const dds_topic_descriptor_t* kTypes[] = {
-      &trailcast_wire_RouteAnnouncement_desc,
-      &trailcast_wire_SegmentBatch_desc,
-      &trailcast_wire_SegmentRequest_desc,
-      &trailcast_wire_Receipt_desc,
-      &trailcast_wire_CatalogRequest_desc,
-      &trailcast_wire_CatalogReply_desc,
-      &trailcast_wire_AgentStatus_desc,
-      &trailcast_wire_RouteEditRequest_desc,
-      &trailcast_wire_Fleet_desc,
-      &trailcast_wire_RouteFollowers_desc,
-      &trailcast_wire_NowCommand_desc,
-      &trailcast_wire_NowAnswer_desc,
-      &trailcast_wire_Mission_desc,
-      &trailcast_wire_MissionReport_desc,
-      &trailcast_wire_MissionRequest_desc,
-      &trailcast_wire_MissionReply_desc,
-      &trailcast_wire_DriveCommand_desc,
-      &trailcast_wire_GlanceRequest_desc,
-      &trailcast_wire_Glance_desc,
-      &trailcast_wire_NetworkEdit_desc,
-      &trailcast_wire_NetworkRequest_desc,
-      &trailcast_wire_NetworkReply_desc,
-      &trailcast_wire_FollowedStretches_desc};
+  static constexpr const dds_topic_descriptor_t* kTypes[] = {&trailcast_wire_RouteAnnouncement_desc,
+                                                             &trailcast_wire_SegmentBatch_desc,
+                                                             &trailcast_wire_SegmentRequest_desc,
+                                                             &trailcast_wire_Receipt_desc,
+                                                             &trailcast_wire_CatalogRequest_desc,
+                                                             &trailcast_wire_CatalogReply_desc,
+                                                             &trailcast_wire_AgentStatus_desc,
+                                                             &trailcast_wire_RouteEditRequest_desc,
+                                                             &trailcast_wire_Fleet_desc,
+                                                             &trailcast_wire_RouteFollowers_desc,
+                                                             &trailcast_wire_NowCommand_desc,
+                                                             &trailcast_wire_NowAnswer_desc,
+                                                             &trailcast_wire_Mission_desc,
+                                                             &trailcast_wire_MissionReport_desc,
+                                                             &trailcast_wire_MissionRequest_desc,
+                                                             &trailcast_wire_MissionReply_desc,
+                                                             &trailcast_wire_DriveCommand_desc,
+                                                             &trailcast_wire_GlanceRequest_desc,
+                                                             &trailcast_wire_Glance_desc,
+                                                             &trailcast_wire_NetworkEdit_desc,
+                                                             &trailcast_wire_NetworkRequest_desc,
+                                                             &trailcast_wire_NetworkReply_desc,
+                                                             &trailcast_wire_FollowedStretches_desc,
+                                                             &trailcast_wire_ReachRequest_desc,
+                                                             &trailcast_wire_ReachReport_desc};
   return *kTypes[static_cast<std::size_t>(topic)];
 }
 

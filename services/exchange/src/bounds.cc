@@ -347,6 +347,37 @@ Result<void> Check(const FollowedStretches& message) {
   return {};
 }
 
+Result<void> Check(const ReachRequest& message) {
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  return message.relayed ? CheckName("server", message.server.value()) : Result<void>();
+}
+
+Result<void> CheckHeard(const HeardAgent& heard) {
+  if (auto ok = CheckName("heard agent", heard.agent.value()); !ok) return ok;
+  if (auto ok = CheckEnum("agent role", heard.role, AgentRole::kOperator); !ok) return ok;
+  if (auto ok = CheckAmount("ms under way", std::abs(heard.late_ms), kMaxLate_ms); !ok) return ok;
+  if (auto ok = CheckAmount("ms there and back", heard.round_trip_ms.value_or(0.0), kMaxLate_ms);
+      !ok) {
+    return ok;
+  }
+  if (auto ok = CheckText("address", heard.address, kMaxAddressBytes); !ok) return ok;
+  return CheckText("network interface", heard.network, kMaxNetworkBytes);
+}
+
+Result<void> Check(const ReachReport& message) {
+  if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
+  if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
+  if (!message.server.value().empty()) {
+    if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
+  }
+  if (auto ok = CheckEnum("agent role", message.role, AgentRole::kOperator); !ok) return ok;
+  if (auto ok = CheckCount("agents heard", message.heard.size(), kMaxHeardAgents); !ok) return ok;
+  for (const HeardAgent& heard : message.heard) {
+    if (auto ok = CheckHeard(heard); !ok) return ok;
+  }
+  return {};
+}
+
 Result<void> Check(const AgentGone& message) { return CheckName("agent", message.agent.value()); }
 
 }  // namespace

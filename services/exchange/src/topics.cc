@@ -38,16 +38,17 @@ TopicUse FollowerTopics() {
 }
 
 TopicUse ServerTopics() {
-  return {
-      .write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts, Topic::kCatalogReplies,
-                Topic::kAgents, Topic::kFleet, Topic::kNow, Topic::kMissions,
-                Topic::kMissionStates},
-      .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kCatalogRequests,
-               Topic::kAgents, Topic::kRouteEdits, Topic::kNow, Topic::kNowAnswers,
-               Topic::kMissions, Topic::kMissionStates, Topic::kMissionRequests,
-               Topic::kNetworkEdits, Topic::kNetworkRequests, Topic::kFollowed},
-      .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers,
-                       Topic::kMissionReplies, Topic::kNetworkReplies}};
+  return {.write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts,
+                    Topic::kCatalogReplies, Topic::kAgents, Topic::kFleet, Topic::kNow,
+                    Topic::kMissions, Topic::kMissionStates},
+          .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests,
+                   Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits, Topic::kNow,
+                   Topic::kNowAnswers, Topic::kMissions, Topic::kMissionStates,
+                   Topic::kMissionRequests, Topic::kNetworkEdits, Topic::kNetworkRequests,
+                   Topic::kFollowed, Topic::kReachRequests, Topic::kReachReports},
+          .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers,
+                           Topic::kMissionReplies, Topic::kNetworkReplies, Topic::kReachRequests,
+                           Topic::kReachReports}};
 }
 
 TopicUse OperatorTopics() {
@@ -101,6 +102,10 @@ TopicUse JoinerTopics() {
   return {.write = {Topic::kNetworkEdits}, .read = {Topic::kNetworkReplies}};
 }
 
+TopicUse ReachTopics() {
+  return {.write = {Topic::kReachRequests}, .read = {Topic::kReachReports, Topic::kAgents}};
+}
+
 TopicUse ObserverTopics() {
   TopicUse use = OperatorTopics();
   std::erase(use.write, Topic::kRouteEdits);
@@ -131,7 +136,9 @@ std::optional<Topic> TopicOf(const Message& message) {
                                        Topic::kNetworkEdits,
                                        Topic::kNetworkRequests,
                                        Topic::kNetworkReplies,
-                                       Topic::kFollowed};
+                                       Topic::kFollowed,
+                                       Topic::kReachRequests,
+                                       Topic::kReachReports};
   if (message.index() >= std::size(kInOrder)) return std::nullopt;
   return kInOrder[message.index()];
 }
@@ -192,6 +199,10 @@ const char* NameOf(Topic topic) {
       return "trailcast/network_replies";
     case Topic::kFollowed:
       return "trailcast/followed";
+    case Topic::kReachRequests:
+      return "trailcast/reach_requests";
+    case Topic::kReachReports:
+      return "trailcast/reach_reports";
   }
   return "unknown topic";
 }

@@ -27,6 +27,7 @@ constexpr NewerTopic kNewerTopics[] = {
     {exchange::Topic::kGlanceRequests, "operators looked through robots' cameras"},
     {exchange::Topic::kNetworkReplies, "routes were joined"},
     {exchange::Topic::kFollowed, "robots told servers where they lose their path"},
+    {exchange::Topic::kReachRequests, "members were asked whom they hear"},
 };
 
 Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::TopicUse& use) {

@@ -9,6 +9,7 @@
 
 #include "services/base/text.h"
 #include "services/exchange/bounds.h"
+#include "services/exchange/publish.h"
 #include "services/program/command_line.h"
 
 namespace trailcast::program {
@@ -25,10 +26,9 @@ exchange::AgentStatus Starting(exchange::AgentStatus status) {
 
 Presence::Presence(exchange::RouteExchange& exchange, exchange::AgentStatus status,
                    std::chrono::milliseconds interval)
-    : exchange_(exchange),
-      status_(Starting(std::move(status))),
-      claim_(status_),
-      interval_(interval) {}
+    : exchange_(exchange), status_(Starting(status)), claim_(status_), interval_(interval) {
+  if (status.instance == 0) reach_.emplace(status_.agent, status_.role);
+}
 
 Result<void> Presence::Claim(const Handler& handle, const std::function<bool()>& stop) {
   Publish();
@@ -64,6 +64,10 @@ void Presence::Handle(const exchange::Message& message) {
   } else if (const auto* fleet = std::get_if<exchange::Fleet>(&message)) {
     Hear(*fleet);
   }
+  if (!reach_) return;
+  reach_->Handle(message, Clock::now());
+  // What cannot be handed over is asked for again.
+  (void)exchange::PublishAll(exchange_, reach_->TakeOutgoing());
 }
 
 void Presence::Hear(const exchange::AgentGone& gone) {
@@ -165,6 +169,10 @@ exchange::TopicUse WithAgents(exchange::TopicUse use) {
   if (!use.Writes(kAgents)) use.write.push_back(kAgents);
   if (!use.Hears(kAgents)) use.overhear.push_back(kAgents);
   if (!use.Writes(exchange::Topic::kFleet)) use.read.push_back(exchange::Topic::kFleet);
+  constexpr exchange::Topic kAsked = exchange::Topic::kReachRequests;
+  constexpr exchange::Topic kAnswer = exchange::Topic::kReachReports;
+  if (!use.Reads(kAsked)) use.read.push_back(kAsked);
+  if (!use.Writes(kAnswer)) use.write_rarely.push_back(kAnswer);
   return use;
 }
 

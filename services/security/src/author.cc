@@ -32,6 +32,8 @@ struct AuthorIn {
   AgentId operator()(const exchange::NetworkRequest& m) { return m.client; }
   AgentId operator()(const exchange::NetworkReply& m) { return m.server; }
   AgentId operator()(const exchange::FollowedStretches& m) { return m.agent; }
+  AgentId operator()(const exchange::ReachRequest& m) { return m.client; }
+  AgentId operator()(const exchange::ReachReport& m) { return m.agent; }
   AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
 };
 
@@ -78,7 +80,7 @@ Result<void> CheckAuthor(const exchange::Message& message, const Member& sender,
                          const std::string& name_key) {
   if (IsRelayed(message)) {
     if (sender.role == Role::kServer) return {};
-    return Fail(ErrorCode::kInvalidArgument, "passes on commands, which only servers do");
+    return Fail(ErrorCode::kInvalidArgument, "passes on what others say, which only servers do");
   }
   const std::string author = std::visit(AuthorIn(), message).value();
   if (MemberIdOf(name_key, WithoutProcess(author)) != sender.id) {

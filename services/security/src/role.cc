@@ -31,8 +31,12 @@ TopicUse Together(TopicUse use, const TopicUse& more) {
   return use;
 }
 
-// Everybody sees who is there; robots and servers say so themselves, and servers of all others.
-TopicUse SeesAgents() { return {.write = {}, .read = {Topic::kAgents, Topic::kFleet}}; }
+// Everybody sees who is there; robots and servers say so themselves, and servers of all others. Who
+// is asked whom it hears tells.
+TopicUse SeesAgents() {
+  return {.write = {Topic::kReachReports},
+          .read = {Topic::kAgents, Topic::kFleet, Topic::kReachRequests}};
+}
 
 void AppendBeyond(const std::vector<Topic>& wanted, const std::vector<Topic>& granted,
                   const char* doing, std::string& text) {
@@ -87,13 +91,16 @@ TopicUse RightsOf(Role role) {
       use = Together(std::move(use), exchange::GlanceTopics());
       use = Together(std::move(use), exchange::NetworkTopics());
       use = Together(std::move(use), exchange::JoinerTopics());
+      use = Together(std::move(use), exchange::ReachTopics());
       std::erase(use.write, Topic::kAgents);  // operators are nobody's agent
       return use;
     }
     case Role::kObserver:
-      return Together(Together(Together(exchange::ObserverTopics(), exchange::HistoryTopics()),
-                               exchange::GlanceTopics()),
-                      exchange::NetworkTopics());
+      return Together(
+          Together(Together(Together(exchange::ObserverTopics(), exchange::HistoryTopics()),
+                            exchange::GlanceTopics()),
+                   exchange::NetworkTopics()),
+          exchange::ReachTopics());
   }
   return {};
 }

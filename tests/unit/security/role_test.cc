@@ -35,6 +35,8 @@ TEST(Role, OnlyOperatorsEditRoutesAndOnlyServersReceiptOrReply) {
     EXPECT_EQ(may(Topic::kNetworkReplies), role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kFollowed), role == Role::kFollower || role == Role::kScout)
         << NameOf(role);
+    EXPECT_EQ(may(Topic::kReachReports), role != Role::kOperator && role != Role::kObserver)
+        << NameOf(role);
     EXPECT_EQ(may(Topic::kReceipts), role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kCatalogReplies), role == Role::kServer) << NameOf(role);
   }
@@ -44,7 +46,7 @@ TEST(Role, AFollowerAnnouncesNoRoutesAndAnObserverOnlyAsks) {
   EXPECT_THAT(RightsOf(Role::kFollower).write, Not(Contains(Topic::kRoutes)));
   EXPECT_THAT(RightsOf(Role::kObserver).write,
               ElementsAre(Topic::kCatalogRequests, Topic::kMissionRequests, Topic::kGlanceRequests,
-                          Topic::kNetworkRequests));
+                          Topic::kNetworkRequests, Topic::kReachRequests));
 }
 
 TEST(Role, AllowsWhatItsProgramsOpenAndNamesWhatIsBeyond) {
@@ -60,6 +62,8 @@ TEST(Role, AllowsWhatItsProgramsOpenAndNamesWhatIsBeyond) {
   EXPECT_EQ(BeyondRights(Role::kOperator, exchange::SenderTopics()), "");
   EXPECT_EQ(BeyondRights(Role::kOperator, exchange::HistoryTopics()), "");
   EXPECT_EQ(BeyondRights(Role::kObserver, exchange::HistoryTopics()), "");
+  EXPECT_EQ(BeyondRights(Role::kOperator, exchange::ReachTopics()), "");
+  EXPECT_EQ(BeyondRights(Role::kObserver, exchange::ReachTopics()), "");
   EXPECT_THAT(BeyondRights(Role::kObserver, exchange::SenderTopics()),
               testing::HasSubstr("write trailcast/missions"));
   EXPECT_THAT(BeyondRights(Role::kObserver, exchange::DispatcherTopics()),

@@ -55,7 +55,7 @@ Peers::SaidOfItself Said(const dds_builtintopic_participant_t& participant) {
   const std::string process = Property(participant.qos, "__Pid");
   if (!host.empty()) about += ", host " + host;
   if (!process.empty()) about += ", process " + process;
-  return {std::move(about), !(name + host + process).empty(), name, version};
+  return {std::move(about), !(name + host + process).empty(), name, version, address};
 }
 
 }  // namespace

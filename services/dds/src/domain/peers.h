@@ -21,6 +21,7 @@ class Peers {
     bool names = false;  // in the clear, which members of a fleet with keys do not
     std::string name{};  // of its user data, as is the version
     std::optional<std::uint32_t> version{};
+    std::string address{};  // "10.0.0.7:41830"; empty: it says none
   };
   struct Handlers {
     // `participant`: the first three words of its GUID; `said`: what it says of itself, unproven.
