@@ -52,6 +52,7 @@ int Run(int argc, char** argv) {
                                 trailcast::tool::AddImportCommand(app, common),
                                 trailcast::tool::AddWhereCommand(app, common),
                                 trailcast::tool::AddFleetCommand(app, common),
+                                trailcast::tool::AddReachCommand(app, common),
                                 trailcast::tool::AddGlanceCommand(app, common),
                                 trailcast::tool::AddNetworkCommand(app, common),
                                 trailcast::tool::AddKeysCommand(app),

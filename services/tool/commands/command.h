@@ -22,6 +22,7 @@ struct Command {
 [[nodiscard]] Command AddDoctorCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddExportCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddFleetCommand(CLI::App& parent, const program::CommonOptions& common);
+[[nodiscard]] Command AddReachCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddGlanceCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddImportCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddJointsCommand(CLI::App& parent);
