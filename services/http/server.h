@@ -84,8 +84,8 @@ class Server final : public httplib::Server {
   void AcceptAll();
   void Accept();
   [[nodiscard]] bool Failed(const Result<void>& done) const;  // and complains of it
-  void Answer(int socket, const std::function<void()>& on_request);
-  void Answer(Stream& stream, const std::function<void()>& on_request);
+  void Answer(int socket, const std::function<void(bool)>& tell_awaited);
+  void Answer(Stream& stream);
   [[nodiscard]] const Allowance* AllowanceOf(const httplib::Request& request) const;
   [[nodiscard]] std::string BodyOf(const httplib::Request& request,
                                    const httplib::ContentReader& read) const;

@@ -1,5 +1,7 @@
 #include "services/http/src/guests.h"
 
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -16,7 +18,29 @@ void HangUp(int socket) {
   (void)close(socket);
 }
 
+bool HasTakenAll(int socket) {
+  int bytes = 0;
+  return ioctl(socket, SIOCOUTQ, &bytes) != 0 || bytes == 0;
+}
+
+// When it is closed.
+void ForgetTheRest(int socket) {
+  constexpr linger kAtOnce{.l_onoff = 1, .l_linger = 0};
+  (void)setsockopt(socket, SOL_SOCKET, SO_LINGER, &kAtOnce, sizeof(kAtOnce));
+}
+
 std::size_t ConnectionsOf(const Guests::Guest& guest) { return guest.address->second.all(); }
+
+// In being sent away: of the address that has more, or awaited for longer.
+bool IsBefore(const Guests::Guest& one, const Guests::Guest& other) {
+  const std::size_t ones = ConnectionsOf(one);
+  const std::size_t others = ConnectionsOf(other);
+  return ones != others ? ones > others : one.awaited_since < other.awaited_since;
+}
+
+bool InTime(const Guests::Guest& guest) {
+  return steady_clock::now() < *guest.awaited_since + Guests::kPolite;
+}
 
 }  // namespace
 
@@ -34,13 +58,15 @@ Guests::~Guests() {
   comes_.notify_all();
   for (std::thread& thread : threads_) thread.join();
   for (const Guest& guest : waiting_) HangUp(guest.socket);
+  for (const Farewell& farewell : farewells_) (void)close(farewell.socket);
 }
 
 void Guests::Take(int socket, const std::string& address) {
   std::unique_lock lock(mutex_);
   const auto from = addresses_.try_emplace(address).first;
   const bool strangers = limits_.of_one_address > 0;
-  if (strangers && from->second.all() >= limits_.of_one_address) return HangUp(socket);
+  const bool is_full = strangers && from->second.all() >= limits_.of_one_address;
+  if (is_full && !SendAwayOf(from)) return HangUp(socket);
   ++from->second.waiting;
   const auto is_room = [&] {
     const std::size_t own = from->second.all();
@@ -59,14 +85,16 @@ void Guests::Take(int socket, const std::string& address) {
   comes_.notify_one();
 }
 
-void Guests::LetStay(Guest& guest) {
+void Guests::Await(Guest& guest, bool awaited) {
   const std::scoped_lock lock(mutex_);
-  guest.stays = true;
+  guest.awaited_since.reset();
+  if (awaited) guest.awaited_since = steady_clock::now();
 }
 
 void Guests::MakeRoom() {
   const std::scoped_lock lock(mutex_);
   while (Lacks(limits_.threads) && SendAway(waiting_.front().address->second.all())) continue;
+  SeeOff();
 }
 
 // Whether so many places are too few for all who are there, and those who come.
@@ -85,7 +113,7 @@ void Guests::Work() {
         });
     --guest->address->second.waiting;
     ++guest->address->second.answered;
-    guest->began = steady_clock::now();
+    guest->awaited_since = steady_clock::now();
     answered_.splice(answered_.end(), waiting_, guest);
     lock.unlock();
     answer_(*guest);
@@ -101,16 +129,29 @@ void Guests::Work() {
 bool Guests::SendAway(std::size_t newcomers) {
   Guest* most = nullptr;
   for (Guest& guest : answered_) {
-    if (guest.stays || guest.leaves) continue;
-    if (most == nullptr || ConnectionsOf(guest) > ConnectionsOf(*most)) most = &guest;
+    if (!guest.awaited_since || guest.leaves) continue;
+    if (most == nullptr || IsBefore(guest, *most)) most = &guest;
   }
   if (most == nullptr) return false;
-  const bool in_time = steady_clock::now() < most->began + kPolite;
-  if (in_time && ConnectionsOf(*most) <= newcomers) return false;
-  most->leaves = true;
-  ++leaving_;
-  (void)shutdown(most->socket, SHUT_RDWR);
+  if (InTime(*most) && ConnectionsOf(*most) <= newcomers) return false;
+  Dismiss(*most);
   return true;
+}
+
+// One, for a newcomer of its own address.
+bool Guests::SendAwayOf(Addresses::const_iterator address) {
+  const auto late = std::find_if(answered_.begin(), answered_.end(), [&](const Guest& guest) {
+    return guest.address == address && guest.awaited_since && !guest.leaves && !InTime(guest);
+  });
+  if (late == answered_.end()) return false;
+  Dismiss(*late);
+  return true;
+}
+
+void Guests::Dismiss(Guest& guest) {
+  guest.leaves = true;
+  ++leaving_;
+  (void)shutdown(guest.socket, SHUT_RDWR);
 }
 
 // The same of those who have no thread yet.
@@ -126,9 +167,44 @@ bool Guests::HangUpOnWaiting(std::size_t newcomers) {
 }
 
 void Guests::Leave(std::list<Guest>& list, std::list<Guest>::iterator guest) {
-  HangUp(guest->socket);
+  (void)shutdown(guest->socket, SHUT_RDWR);
+  farewells_.push_back({.socket = guest->socket,
+                        .address = guest->address->first,
+                        .until = steady_clock::now() + kFarewell});
   if (ConnectionsOf(*guest) == 0) addresses_.erase(guest->address);
   list.erase(guest);
+  SeeOff();
+}
+
+// Who has taken everything; and without the rest who takes too long, and the eldest of who are too
+// many.
+void Guests::SeeOff() {
+  std::map<std::string, std::size_t> of;
+  farewells_.remove_if([&](const Farewell& farewell) {
+    const bool is_over = HasTakenAll(farewell.socket);
+    const bool is_late = !is_over && steady_clock::now() >= farewell.until;
+    if (!is_over && !is_late) {
+      ++of[farewell.address];
+      return false;
+    }
+    if (is_late) ForgetTheRest(farewell.socket);
+    (void)close(farewell.socket);
+    return true;
+  });
+  const auto fewer = [](const auto& one, const auto& other) { return one.second < other.second; };
+  while (!farewells_.empty()) {
+    const auto most = std::max_element(of.begin(), of.end(), fewer);
+    const bool too_many_of_one =
+        limits_.of_one_address > 0 && most->second > limits_.of_one_address;
+    if (!too_many_of_one && farewells_.size() <= limits_.threads + limits_.waiting) return;
+    const auto eldest =
+        std::find_if(farewells_.begin(), farewells_.end(),
+                     [&](const Farewell& farewell) { return farewell.address == most->first; });
+    ForgetTheRest(eldest->socket);
+    (void)close(eldest->socket);
+    farewells_.erase(eldest);
+    --most->second;
+  }
 }
 
 }  // namespace trailcast::http

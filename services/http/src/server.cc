@@ -168,8 +168,9 @@ Result<void> Server::Listen(const std::string& host, int port) {
   (void)::listen(svr_sock_, kBacklog);
   (void)fcntl(svr_sock_, F_SETFL, fcntl(svr_sock_, F_GETFL) | O_NONBLOCK);
   guests_ = std::make_unique<Guests>(limits_, [this](Guests::Guest& guest) {
-    (void)Failed(Guarded("a thread that answers requests",
-                         [&] { Answer(guest.socket, [&] { guests_->LetStay(guest); }); }));
+    (void)Failed(Guarded("a thread that answers requests", [&] {
+      Answer(guest.socket, [&](bool awaited) { guests_->Await(guest, awaited); });
+    }));
   });
   thread_ = std::thread([this] { AcceptAll(); });
   return {};
@@ -195,22 +196,27 @@ void Server::Accept() {
   }
 }
 
-void Server::Answer(int socket, const std::function<void()>& on_request) {
+// `tell_awaited`: whether the client is, as it changes.
+void Server::Answer(int socket, const std::function<void(bool)>& tell_awaited) {
   if (!tls_) {
-    Stream stream(socket);
-    return Answer(stream, on_request);
+    Stream stream(socket, tell_awaited);
+    return Answer(stream);
   }
-  TlsStream stream(socket, tls_->Context().get());
-  if (stream.Greet()) Answer(stream, on_request);
+  TlsStream stream(socket, tls_->Context().get(), tell_awaited);
+  if (stream.Greet()) Answer(stream);
 }
 
-// `on_request`: called when it is read, but for its body.
-void Server::Answer(Stream& stream, const std::function<void()>& on_request) {
+void Server::Answer(Stream& stream) {
   bool closed = false;
   (void)process_request(stream, /*close_connection=*/true, closed, [&](httplib::Request& request) {
-    on_request();
-    if (TakesAnyBody(request)) return stream.Hurry(kHurry);
+    // Nobody needs parts of an answer, and a request of 8 kB can name it whole a thousand times.
+    request.ranges.clear();
     const Allowance* allowance = AllowanceOf(request);
+    const bool is_hurried = TakesAnyBody(request);
+    const auto length = ParseNumber<std::uint64_t>(request.get_header_value("Content-Length"));
+    // A file may take its time, and what is obeyed without its body has none to lose.
+    stream.AwaitBody(is_hurried || allowance != nullptr ? 0 : length.value_or(0));
+    if (is_hurried) return stream.Hurry(kHurry);
     // Where no length is told, cpp-httplib reads until the client hangs up,
     // which it does not while it waits for its answer.
     if (allowance == nullptr && BringsNoBody(request)) {

@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 short WaitFor(socket_t socket, short events, std::chrono::steady_clock::duration most) {
   const auto left = std::chrono::duration_cast<milliseconds>(most);
   pollfd waited{.fd = socket, .events = events, .revents = 0};
-  const bool any = left > milliseconds{0} && poll(&waited, 1, static_cast<int>(left.count())) > 0;
+  const bool any = left >= milliseconds{0} && poll(&waited, 1, static_cast<int>(left.count())) > 0;
   return any ? waited.revents : short{0};
 }
 
@@ -29,6 +29,12 @@ void Stream::Allow(std::size_t bytes, milliseconds patience) {
   longest_pause_ = kLongestPause;
 }
 
+void Stream::AwaitBody(std::size_t bytes) {
+  awaited_bytes_ = bytes;
+  has_asked_ = bytes == 0;
+  if (has_asked_ && tell_) tell_(false);
+}
+
 void Stream::Hurry(milliseconds patience) {
   read_until_ = std::min(read_until_, Clock::now() + patience);
 }
@@ -37,8 +43,7 @@ bool Stream::is_readable() const { return WaitToRead(POLLIN); }
 
 bool Stream::is_writable() const {
   constexpr short kHungUp = POLLRDHUP | POLLHUP | POLLERR;
-  const short seen =
-      WaitFor(socket_, POLLOUT | POLLRDHUP, std::min(write_wait_left_, longest_pause_));
+  const short seen = WaitToTake(POLLOUT | POLLRDHUP);
   return (seen & POLLOUT) != 0 && (seen & kHungUp) == 0;
 }
 
@@ -55,6 +60,7 @@ ssize_t Stream::read(char* to, std::size_t size) {
   const std::size_t given = std::min(size, end_ - next_);
   std::copy_n(buffer_.begin() + static_cast<std::ptrdiff_t>(next_), given, to);
   next_ += given;
+  if (awaited_bytes_ > 0 && given > 0) AwaitBody(awaited_bytes_ - std::min(awaited_bytes_, given));
   return static_cast<ssize_t>(given);
 }
 
@@ -90,10 +96,18 @@ bool Stream::WaitToRead(short events) const {
 
 bool Stream::WaitToWrite(short events) {
   const auto began = Clock::now();
-  const auto most = std::min(write_wait_left_, longest_pause_);
-  const bool takes = (WaitFor(socket_, events, most) & events) != 0;
+  const bool takes = (WaitToTake(events) & events) != 0;
   write_wait_left_ -= Clock::now() - began;
   return takes;
+}
+
+short Stream::WaitToTake(short events) const {
+  if (const short seen = WaitFor(socket_, events, milliseconds{0}); seen != 0) return seen;
+  const bool tell = has_asked_ && tell_;
+  if (tell) tell_(true);
+  const short seen = WaitFor(socket_, events, std::min(write_wait_left_, longest_pause_));
+  if (tell) tell_(false);
+  return seen;
 }
 
 }  // namespace trailcast::http

@@ -5,7 +5,9 @@
 
 #include <array>
 #include <chrono>
+#include <functional>
 #include <string>
+#include <utility>
 
 namespace trailcast::http {
 
@@ -22,10 +24,17 @@ class Stream : public httplib::Stream {
 
   static constexpr std::chrono::milliseconds kLongestPause{10'000};
 
-  explicit Stream(socket_t socket) : socket_(socket) {}
+  // Whether the client is awaited, as it is to begin with: no more when it has said what it wants,
+  // and while it does not take its answer.
+  using TellAwaited = std::function<void(bool)>;
+
+  explicit Stream(socket_t socket, TellAwaited tell = {})
+      : socket_(socket), tell_(std::move(tell)) {}
 
   // So many bytes more, and so long from now on, but no pause of kLongestPause.
   void Allow(std::size_t bytes, std::chrono::milliseconds patience);
+  // It has said what it wants when so many bytes more were read.
+  void AwaitBody(std::size_t bytes);
   // Nothing is read later than so long from now.
   void Hurry(std::chrono::milliseconds patience);
 
@@ -48,7 +57,13 @@ class Stream : public httplib::Stream {
  private:
   using Clock = std::chrono::steady_clock;
 
+  // What of these has come about, or that the connection has ended.
+  short WaitToTake(short events) const;
+
   socket_t socket_;
+  TellAwaited tell_;
+  bool has_asked_ = false;
+  std::size_t awaited_bytes_ = 0;  // of its body
   std::size_t most_bytes_ = kMostBytes;
   Clock::time_point read_until_ = Clock::now() + kPatience;
   Clock::duration write_wait_left_ = kWritePatience;

@@ -3,10 +3,12 @@
 #include <fcntl.h>
 #include <openssl/err.h>
 
+#include <utility>
+
 namespace trailcast::http {
 
-TlsStream::TlsStream(socket_t socket, SSL_CTX* context)
-    : Stream(socket), ssl_(SSL_new(context), SSL_free) {
+TlsStream::TlsStream(socket_t socket, SSL_CTX* context, TellAwaited tell)
+    : Stream(socket, std::move(tell)), ssl_(SSL_new(context), SSL_free) {
   (void)fcntl(socket, F_SETFL, fcntl(socket, F_GETFL) | O_NONBLOCK);
   if (ssl_) SSL_set_fd(ssl_.get(), socket);
 }

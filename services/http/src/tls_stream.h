@@ -11,7 +11,7 @@ namespace trailcast::http {
 // The same over TLS: all that the client has to say for that counts for its patience, too.
 class TlsStream final : public Stream {
  public:
-  TlsStream(socket_t socket, SSL_CTX* context);
+  TlsStream(socket_t socket, SSL_CTX* context, TellAwaited tell);
   ~TlsStream() override;
   TlsStream(const TlsStream&) = delete;
   TlsStream& operator=(const TlsStream&) = delete;

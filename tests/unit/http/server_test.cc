@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -184,6 +186,18 @@ TEST_F(HttpServerTest, WhatSaysNothingOfABodyHasNone) {
   }
 }
 
+// Eight kilobytes of ranges would have a hundred megabytes sent of a page that anybody may ask for
+// (CVE-2011-3192).
+TEST_F(HttpServerTest, PartsOfAnAnswerAreNotServed) {
+  std::string ranges = "0-4";
+  for (int i = 0; i < 1000; ++i) ranges += ",0-4";
+  const RawConnection client(server_.port());
+  client.Send("GET /hello HTTP/1.1\r\nHost: x\r\nRange: bytes=" + ranges + "\r\n\r\n");
+  const std::string got = client.ReceiveAll();
+  EXPECT_THAT(got, HasSubstr(" 200 "));
+  EXPECT_THAT(got, testing::EndsWith("\r\n\r\nhello"));
+}
+
 class AnyBodyTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -296,6 +310,93 @@ TEST(HttpServer, WhoSaysWhatTheyWantIsAnsweredBesideManyAddressesThatSayNothing)
     EXPECT_EQ(hello->body, "hello");
     silent.push_back(std::make_unique<RawConnection>(shared.port(), "127.0.1.1"));
   }
+}
+
+// A server whose two threads are taken by clients of 127.0.1.1 that have said what they want.
+class TakenThreadsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    server_.Get("/hello", [](const httplib::Request&, httplib::Response& response) {
+      response.set_content("hello", "text/plain");
+    });
+    server_.Get("/long", [](const httplib::Request&, httplib::Response& response) {
+      response.set_content(std::string(kLong, 'x'), "text/plain");
+    });
+    server_.Post("/length", [](const httplib::Request& request, httplib::Response& response) {
+      response.set_content(std::to_string(request.body.size()), "text/plain");
+    });
+    server_.JudgeBy(
+        [this](const httplib::Request&) {
+          ++judged_;
+          return std::optional<Refusal>();
+        },
+        [](const Refusal&, httplib::Response&) {});
+    ASSERT_TRUE(server_.Listen("127.0.0.1", 0));
+  }
+  using Clients = std::vector<std::unique_ptr<RawConnection>>;
+  Clients Ask(const std::string& request) {
+    Clients clients;
+    for (int i = 0; i < 2; ++i) {
+      clients.push_back(std::make_unique<RawConnection>(server_.port(), "127.0.1.1"));
+      clients.back()->Send(request);
+    }
+    test::Await([&] { return judged_ == 2; }, "both threads to know what is wanted");
+    return clients;
+  }
+  [[nodiscard]] std::string HelloTo(const std::string& address) const {
+    const RawConnection client(server_.port(), address);
+    client.Send("GET /hello HTTP/1.1\r\nHost: x\r\n\r\n");
+    return client.ReceiveAll();
+  }
+  static constexpr std::size_t kLong = 64U << 20U;
+  static constexpr const char* kSlowBody =
+      "POST /length HTTP/1.1\r\nHost: x\r\nContent-Length: 90\r\n\r\n{";
+
+  std::atomic<int> judged_{0};
+  Server server_{{.threads = 2, .waiting = 8, .body_bytes = 100, .of_one_address = 2}, Complain};
+};
+
+// In time they would have been told that their request is no good.
+TEST_F(TakenThreadsTest, WhoseBodyDoesNotComeGivesWay) {
+  const Clients slow = Ask(kSlowBody);
+  EXPECT_THAT(HelloTo("127.0.0.1"), HasSubstr("hello"));
+  EXPECT_EQ(slow.front()->ReceiveAll(), "");
+}
+
+TEST_F(TakenThreadsTest, WhoDoesNotTakeTheAnswerGivesWay) {
+  const Clients slow = Ask("GET /long HTTP/1.1\r\nHost: x\r\n\r\n");
+  EXPECT_THAT(HelloTo("127.0.0.1"), HasSubstr("hello"));
+  EXPECT_LT(slow[0]->ReceiveAll().size() + slow[1]->ReceiveAll().size(), 2 * kLong);
+}
+
+TEST_F(TakenThreadsTest, ItsOwnAddressIsLetInAgain) {
+  const Clients slow = Ask(kSlowBody);
+  test::Await([&] { return HelloTo("127.0.1.1").find("hello") != std::string::npos; },
+              "an answer to the address that has all connections it may have");
+  EXPECT_EQ(slow.front()->ReceiveAll(), "");
+}
+
+// The kernel takes such an answer whole, and would keep it for who never does.
+TEST(HttpServer, NoMoreAnswersAreKeptForOneAddressThanItMayHaveConnections) {
+  constexpr std::size_t kAnswer = 400'000;
+  Server server({.threads = 2, .waiting = 8, .of_one_address = 3}, Complain);
+  server.Get("/", [](const httplib::Request&, httplib::Response& response) {
+    response.set_content(std::string(kAnswer, 'x'), "text/plain");
+  });
+  std::atomic<int> answered{0};
+  server.set_logger([&](const httplib::Request&, const httplib::Response&) { ++answered; });
+  ASSERT_TRUE(server.Listen("127.0.0.1", 0));
+  std::vector<std::unique_ptr<RawConnection>> slow;
+  for (int i = 0; i < 5; ++i) {
+    slow.push_back(std::make_unique<RawConnection>(server.port(), "127.0.1.1"));
+    slow.back()->Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    test::Await([&] { return answered == i + 1; }, "an answer");
+  }
+  const RawConnection other(server.port());
+  other.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+  EXPECT_GT(other.ReceiveAll().size(), kAnswer);
+  EXPECT_LT(slow.front()->ReceiveAll().size(), kAnswer) << "the eldest's is forgotten";
+  EXPECT_GT(slow.back()->ReceiveAll().size(), kAnswer);
 }
 
 TEST_F(HttpServerTest, APortThatIsTakenIsRefused) {
