@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <openssl/bio.h>
+#include <openssl/ssl.h>
 
 #include <fstream>
 #include <memory>
@@ -71,6 +73,46 @@ TEST_F(TlsTest, WhoSpeaksNoTlsGetsNothingOfIt) {
   client.Send("GET /hello HTTP/1.1\r\nHost: x\r\n\r\n");
   EXPECT_THAT(client.Receive(), testing::Not(HasSubstr("hello")));
   EXPECT_EQ(Hello(), 200);
+}
+
+class GreetingTest : public TlsTest {
+ protected:
+  // The cipher and the group that were agreed upon; "": none were.
+  [[nodiscard]] std::string Agreed(int version, const char* groups, const char* ciphers) const {
+    const std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)> context(
+        SSL_CTX_new(TLS_client_method()), SSL_CTX_free);
+    SSL_CTX_set_max_proto_version(context.get(), version);
+    EXPECT_EQ(SSL_CTX_set1_groups_list(context.get(), groups), 1);
+    EXPECT_EQ(version == TLS1_3_VERSION ? SSL_CTX_set_ciphersuites(context.get(), ciphers)
+                                        : SSL_CTX_set_cipher_list(context.get(), ciphers),
+              1);
+    const std::unique_ptr<BIO, decltype(&BIO_free_all)> bio(BIO_new_ssl_connect(context.get()),
+                                                            BIO_free_all);
+    BIO_set_conn_hostname(bio.get(), ("127.0.0.1:" + std::to_string(server_.port())).c_str());
+    if (BIO_do_handshake(bio.get()) != 1) return "";
+    SSL* ssl = nullptr;
+    BIO_get_ssl(bio.get(), &ssl);
+    return std::string(SSL_get_cipher_name(ssl)) + " " + OBJ_nid2sn(SSL_get_negotiated_group(ssl));
+  }
+};
+
+// They cost this side hundreds of times what they cost a client that only pretends to reckon.
+TEST_F(GreetingTest, NoFiniteFieldsAreOffered) {
+  constexpr const char* kAes = "TLS_AES_256_GCM_SHA384";
+  for (const char* group : {"ffdhe2048", "ffdhe8192", "X448", "P-521"}) {
+    EXPECT_EQ(Agreed(TLS1_3_VERSION, group, kAes), "") << group;
+  }
+  EXPECT_EQ(Agreed(TLS1_3_VERSION, "ffdhe8192:P-384", kAes), std::string(kAes) + " secp384r1");
+}
+
+TEST_F(GreetingTest, TheServerChoosesTheCipherButForWhoHasNoHardwareForAes) {
+  const auto agreed = [&](const char* ciphers) { return Agreed(TLS1_2_VERSION, "P-256", ciphers); };
+  constexpr const char* kAes = "ECDHE-ECDSA-AES256-GCM-SHA384 prime256v1";
+  EXPECT_EQ(agreed("ECDHE-ECDSA-AES256-GCM-SHA384:ECDHE-ECDSA-AES128-GCM-SHA256"), kAes);
+  EXPECT_EQ(agreed("ECDHE-ECDSA-AES128-GCM-SHA256:ECDHE-ECDSA-AES256-GCM-SHA384"), kAes);
+  EXPECT_EQ(agreed("ECDHE-ECDSA-CHACHA20-POLY1305:ECDHE-ECDSA-AES256-GCM-SHA384"),
+            "ECDHE-ECDSA-CHACHA20-POLY1305 prime256v1");
+  EXPECT_EQ(agreed("AES256-GCM-SHA384"), "") << "without forward secrecy";
 }
 
 TEST_F(TlsTest, WhoGreetsSlowlyOrNeverIsDoneWith) {
