@@ -7,7 +7,7 @@
 
 // Messages of ROS 2 as other programs write them: CDR, encoding 1, in hexadecimal, a field a line,
 // padding before it. Packed number by number after the .msg files of ROS 2 (Humble), by none of our
-// code.
+// code; tests/golden/ros2 has what Foxglove's makes of the same values.
 namespace trailcast::test {
 
 struct Ros2Bytes {
