@@ -3,6 +3,17 @@
 #include <fmt/format.h>
 
 namespace trailcast::agent {
+namespace {
+
+std::string MismatchIfAny(const dds::Ros2Driver::Peers& peers) {
+  if (peers.mismatch.empty()) return {};
+  return fmt::format(
+      "; quality of service does not match: {}: have the robot publish sensors, and listen to "
+      "commands, reliably or best effort, volatile and without a deadline",
+      peers.mismatch);
+}
+
+}  // namespace
 
 std::string TroubleText(const dds::Ros2Options& topics, const dds::Ros2Driver::Peers& peers,
                         const RobotWatch::Trouble& trouble, bool stamps_stand) {
@@ -55,9 +66,7 @@ std::string WhoIsMissing(const dds::Ros2Options& topics, const dds::Ros2Driver::
         peers.rangers[sensor] == 0 ? "nobody publishes" : "no range that can be one came on",
         topics.RangeTopic(sensor));
   }
-  if (!peers.mismatch.empty()) {
-    text += fmt::format("; quality of service does not match: {}", peers.mismatch);
-  }
+  text += MismatchIfAny(peers);
   if (peers.cameras == 0 && peers.odometers == 0 && peers.bases == 0) {
     text += fmt::format("; looked on {}", peers.tried);
   }
@@ -68,9 +77,7 @@ std::string WhoIsMissing(const dds::Ros2Options& topics, const dds::Ros2Driver::
 std::string NobodyListens(const dds::Ros2Options& topics, const dds::Ros2Driver::Peers& peers) {
   const bool plain = topics.command_type == dds::Ros2CommandType::kTwist;
   std::string text = fmt::format("nobody listens to it as {}", plain ? "Twist" : "TwistStamped");
-  if (!peers.mismatch.empty()) {
-    text += fmt::format("; quality of service does not match: {}", peers.mismatch);
-  }
+  text += MismatchIfAny(peers);
   return text + "; check --cmd-vel-topic and --cmd-vel-type";
 }
 

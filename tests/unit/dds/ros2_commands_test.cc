@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "services/dds/ros2_link.h"
+#include "services/dds/src/domain/domain_config.h"
+#include "services/dds/src/entities.h"
+#include "services/dds/src/ros2/ros2_wire.h"
 #include "tests/support/await.h"
 #include "tests/support/unique_tag.h"
 
@@ -52,6 +55,25 @@ TEST_P(Ros2CommandsTest, WhoListensToThemIsNoBase) {
   const auto robot = Ros2Robot::Open(options_).value();
   ASSERT_TRUE(test::Await([&] { return listener->peers().bases > 0; }, "the base"));
   EXPECT_EQ(listener->peers().bases, 1) << "the robot alone";
+}
+
+// A base whose quality of service asks for more than commands are offered with.
+TEST_P(Ros2CommandsTest, ABaseThatAsksForMoreIsNamedWithWhat) {
+  const auto driver = Driver(false);
+  DdsOptions dds;
+  dds.domain_id = options_.domain_id;
+  dds.discovery_tag = options_.discovery_tag;
+  dds.network_interface = options_.network_interface;
+  const auto domain = Domain::Create(DomainConfig(dds, {}, "").value()).value();
+  const auto participant = Participant::Create(domain, "").value();
+  const auto topic =
+      Topic::Create(participant, CommandType(GetParam()), "rt" + options_.CommandTopic()).value();
+  const Qos qos = MakeQos();
+  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+  const auto base = Reader::Create(participant, topic, qos).value();
+  ASSERT_TRUE(test::Await([&] { return !driver->peers().mismatch.empty(); }, "the base"));
+  EXPECT_EQ(driver->peers().mismatch, "/robot1/cmd_vel (durability)");
+  EXPECT_EQ(driver->peers().bases, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, Ros2CommandsTest,

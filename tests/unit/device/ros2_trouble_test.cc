@@ -1,0 +1,27 @@
+#include "agent/device/src/ros2_trouble.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace trailcast::agent {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Ros2Trouble, WhoseQualityOfServiceDoesNotMatchIsToldWhatToSet) {
+  dds::Ros2Options topics;
+  topics.robot = "/robot1";
+  dds::Ros2Driver::Peers peers;
+  const auto names_it =
+      AllOf(HasSubstr("does not match: /robot1/cmd_vel (durability)"), HasSubstr("volatile"));
+  EXPECT_THAT(NobodyListens(topics, peers), Not(HasSubstr("quality of service")));
+  EXPECT_THAT(WhoIsMissing(topics, peers, {}), Not(HasSubstr("quality of service")));
+  peers.mismatch = "/robot1/cmd_vel (durability)";
+  EXPECT_THAT(NobodyListens(topics, peers), names_it);
+  EXPECT_THAT(WhoIsMissing(topics, peers, {}), names_it);
+}
+
+}  // namespace
+}  // namespace trailcast::agent
