@@ -35,6 +35,8 @@ class FastDdsRobot : public ProgramsTest, public testing::WithParamInterface<con
                  static_cast<std::streamsize>(picture.pixels.size()));
     }
   }
+  // Data, which has to be of a fixed size.
+  [[nodiscard]] static bool Shares() { return GetParam() == std::string("data-sharing"); }
   std::unique_ptr<Process> Robot(const std::string& does) {
     return std::make_unique<Process>(
         lab_->At(kHost, {kFastDdsRobot, kDomain, GetParam(), Path("film"), std::to_string(kWidth),
@@ -44,7 +46,8 @@ class FastDdsRobot : public ProgramsTest, public testing::WithParamInterface<con
   Ended RunAgentOfRobot(const std::string& command, const Words& words) {
     Process agent(lab_->At(kHost, With({ProgramsDir() + "/trailcast-agent", command, "--ros2",
                                         "/robot1", "--ros-domain", kDomain, "--route", "hall",
-                                        "--store", Path("routes.db")},
+                                        "--store", Path("routes.db"), "--cmd-vel-type",
+                                        Shares() ? "twist" : "twist_stamped"},
                                        words)),
                   Path(command + ".log"));
     return End(agent);
@@ -54,7 +57,8 @@ class FastDdsRobot : public ProgramsTest, public testing::WithParamInterface<con
 };
 
 INSTANTIATE_TEST_SUITE_P(Settings, FastDdsRobot,
-                         testing::Values("default", "localhost-only", "localhost-range"),
+                         testing::Values("default", "localhost-only", "localhost-range",
+                                         "data-sharing"),
                          [](const auto& param) {
                            std::string name = param.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -25,7 +25,9 @@ using eprosima::fastrtps::types::ReturnCode_t;
 
 constexpr const char* kUsage =
     "fast_dds_robot DOMAIN SETTING FILM WIDTH HEIGHT drive|obey\n"
-    "SETTING is default, localhost-only or localhost-range; FILM holds pictures, a byte a pixel.\n"
+    "SETTING is default, localhost-only, localhost-range or data-sharing, whose commands are "
+    "plain\n"
+    "Twists; FILM holds pictures, a byte a pixel.\n"
     "'drive' drives along most of the film once somebody watches; 'obey' does as it is told.\n";
 constexpr double kStep_m = 0.02;  // from one picture to the next
 constexpr double kPeriod_s = 0.05;
@@ -75,8 +77,10 @@ class Robot {
         node_(domain, setting),
         camera_(node_.Write("/robot1/image_raw", dds::TypeSupport(new sensor::Image_PubSubType()))),
         wheels_(node_.Write("/robot1/odom", dds::TypeSupport(new nav::Odometry_PubSubType()))),
+        plain_(setting == robot::Setting::kDataSharing),
         commands_(node_.Read("/robot1/cmd_vel",
-                             dds::TypeSupport(new geometry::TwistStamped_PubSubType()))) {}
+                             plain_ ? dds::TypeSupport(new geometry::Twist_PubSubType())
+                                    : dds::TypeSupport(new geometry::TwistStamped_PubSubType()))) {}
 
   [[noreturn]] void Live() {
     auto next = Clock::now();
@@ -91,14 +95,23 @@ class Robot {
  private:
   double Speed_mps() {
     if (!obeys_) return DrivesItself() ? kSpeed_mps : 0.0;
-    geometry::TwistStamped_ command;
+    if (plain_) {
+      Hear<geometry::Twist_>([](geometry::Twist_& command) { return command.linear().x(); });
+    } else {
+      Hear<geometry::TwistStamped_>(
+          [](geometry::TwistStamped_& command) { return command.twist().linear().x(); });
+    }
+    return Clock::now() - told_at_ < kCommandHolds ? told_mps_ : 0.0;
+  }
+  template <typename Command, typename SpeedOf>
+  void Hear(const SpeedOf& speed_of) {
+    Command command;
     dds::SampleInfo info;
     while (commands_->take_next_sample(&command, &info) == ReturnCode_t::RETCODE_OK) {
       if (!info.valid_data) continue;
-      told_mps_ = command.twist().linear().x();
+      told_mps_ = speed_of(command);
       told_at_ = Clock::now();
     }
-    return Clock::now() - told_at_ < kCommandHolds ? told_mps_ : 0.0;
   }
   bool DrivesItself() {
     dds::PublicationMatchedStatus matched;
@@ -133,6 +146,7 @@ class Robot {
   robot::Node node_;
   dds::DataWriter* camera_;
   dds::DataWriter* wheels_;
+  bool plain_;  // commands, without a stamp: of a fixed size, as what is shared has to be
   dds::DataReader* commands_;
   double place_m_ = 0.0;
   double told_mps_ = 0.0;
@@ -144,7 +158,8 @@ int Run(const std::vector<std::string>& words) {
   static const std::map<std::string, robot::Setting> kSettings = {
       {"default", robot::Setting::kDefault},
       {"localhost-only", robot::Setting::kLocalhostOnly},
-      {"localhost-range", robot::Setting::kLocalhostRange}};
+      {"localhost-range", robot::Setting::kLocalhostRange},
+      {"data-sharing", robot::Setting::kDataSharing}};
   if (words.size() != 6 || kSettings.count(words[1]) == 0 ||
       (words[5] != "drive" && words[5] != "obey")) {
     throw std::invalid_argument(kUsage);

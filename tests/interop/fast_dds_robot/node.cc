@@ -24,7 +24,7 @@ constexpr int kDepth = 5;
 dds::DomainParticipantQos QosOf(Setting setting) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.name("/");
-  if (setting == Setting::kDefault) return qos;
+  if (setting == Setting::kDefault || setting == Setting::kDataSharing) return qos;
   auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   if (setting == Setting::kLocalhostOnly) udp->interfaceWhiteList.emplace_back("127.0.0.1");
   if (setting == Setting::kLocalhostRange) {
@@ -43,12 +43,16 @@ dds::DomainParticipantQos QosOf(Setting setting) {
 }
 
 template <typename EndpointQos>
-EndpointQos SensorQos(EndpointQos qos) {
+EndpointQos SensorQos(EndpointQos qos, Setting setting) {
   qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
   qos.durability().kind = dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = kDepth;
-  qos.data_sharing().off();
+  if (setting == Setting::kDataSharing) {
+    qos.data_sharing().automatic();
+  } else {
+    qos.data_sharing().off();
+  }
   qos.endpoint().history_memory_policy =
       eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   return qos;
@@ -56,7 +60,7 @@ EndpointQos SensorQos(EndpointQos qos) {
 
 }  // namespace
 
-Node::Node(std::uint32_t domain, Setting setting) {
+Node::Node(std::uint32_t domain, Setting setting) : setting_(setting) {
   participant_ = Made(
       dds::DomainParticipantFactory::get_instance()->create_participant(domain, QosOf(setting)),
       "participant");
@@ -78,15 +82,15 @@ dds::Topic* Node::TopicOf(const std::string& name, const dds::TypeSupport& type)
 }
 
 dds::DataWriter* Node::Write(const std::string& topic, dds::TypeSupport type) {
-  auto qos = SensorQos(dds::DATAWRITER_QOS_DEFAULT);
+  auto qos = SensorQos(dds::DATAWRITER_QOS_DEFAULT, setting_);
   qos.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;  // a picture is many fragments
   return Made(publisher_->create_datawriter(TopicOf(topic, type), qos), "writer of " + topic);
 }
 
 dds::DataReader* Node::Read(const std::string& topic, dds::TypeSupport type) {
-  return Made(
-      subscriber_->create_datareader(TopicOf(topic, type), SensorQos(dds::DATAREADER_QOS_DEFAULT)),
-      "reader of " + topic);
+  return Made(subscriber_->create_datareader(TopicOf(topic, type),
+                                             SensorQos(dds::DATAREADER_QOS_DEFAULT, setting_)),
+              "reader of " + topic);
 }
 
 }  // namespace robot

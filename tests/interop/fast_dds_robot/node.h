@@ -18,6 +18,7 @@ enum class Setting {
   kDefault,         // all interfaces, multicast, shared memory
   kLocalhostOnly,   // ROS_LOCALHOST_ONLY=1
   kLocalhostRange,  // ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
+  kDataSharing,     // RMW_FASTRTPS_USE_QOS_FROM_XML=1, and profiles that share data where they can
 };
 
 // A participant with topics as ROS 2 names them and with the QoS of its sensor drivers: reliable,
@@ -36,6 +37,7 @@ class Node {
  private:
   dds::Topic* TopicOf(const std::string& name, const dds::TypeSupport& type);
 
+  Setting setting_;
   dds::DomainParticipant* participant_ = nullptr;
   dds::Publisher* publisher_ = nullptr;
   dds::Subscriber* subscriber_ = nullptr;
