@@ -40,6 +40,13 @@ constexpr const char* kSendsLittle =
     "<CycloneDDS><Domain><Internal>"
     "<HeartbeatInterval min=\"5ms\" minsched=\"100ms\" max=\"8s\">500ms</HeartbeatInterval>"
     "</Internal></Domain></CycloneDDS>";
+// One thread that waits for all sockets. Cyclone ends those that wait for one socket each by a
+// packet to its own address: once that address is gone, closing a domain would wait for it for
+// ever.
+constexpr const char* kEndsWithoutNetwork =
+    "<CycloneDDS><Domain><Internal><MultipleReceiveThreads>false</MultipleReceiveThreads></"
+    "Internal>"
+    "</Domain></CycloneDDS>";
 // On an interface that was chosen; on others Cyclone decides for itself. The environment may forbid
 // it.
 constexpr const char* kMulticast =
@@ -131,6 +138,7 @@ Result<std::string> DomainConfig(const DdsOptions& options, const Meeting& meeti
   if (!cyclonedds_uri.empty()) config += "," + cyclonedds_uri;
   config += fmt::format(",<CycloneDDS><Domain>{}<Discovery>{}</Discovery></Domain></CycloneDDS>",
                         general, discovery);
+  config += std::string(",") + kEndsWithoutNetwork;
   const auto meet = DiscoveryConfig(options, meeting);
   if (!meet) return meet;
   config += "," + *meet;
