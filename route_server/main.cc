@@ -1,6 +1,8 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 
+#include <memory>
+
 #include "route_server/check.h"
 #include "route_server/server.h"
 #include "services/program/command_line.h"
@@ -199,12 +201,14 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const Store
   const program::StopSignal stop;
   auto store = OpenStore(options);
   if (!store) return program::Complain(app, store.error());
-  auto exchange =
-      program::OpenExchange(common, program::WithAgents(trailcast::exchange::ServerTopics()));
+  const auto network = std::make_shared<trailcast::exchange::NetworkState>();
+  auto exchange = program::OpenExchange(
+      common, program::WithAgents(trailcast::exchange::ServerTopics()), network);
   if (!exchange) return program::Complain(app, exchange.error());
   auto server = trailcast::server::Server::Open(AgentId(common.name), std::move(*store),
                                                 std::move(*exchange));
   if (!server) return program::Complain(app, server.error());
+  (*server)->Mind(network);
   using trailcast::server::Server;
   Keep(OwnFile(options, options.missions, ".missions"), "missions", **server,
        &Server::KeepMissions);

@@ -81,6 +81,7 @@ Result<std::unique_ptr<Server>> Server::Open(const AgentId& name,
 }
 
 Result<void> Server::Run(const std::function<bool()>& stop) {
+  WaitForNetwork(stop);
   const auto receive = [this](const exchange::Message& message) { Receive(message); };
   if (auto claimed = presence_.Claim(receive, stop); !claimed) return claimed;
   const auto routes = store_->QueryRoutes({.page_size = 1});
@@ -97,6 +98,16 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
       "followers",
       counters.appended, counters.duplicates, counters.answered);
   return {};
+}
+
+// Before its name is claimed: who has it, and who asks for something, is heard on a network alone.
+void Server::WaitForNetwork(const std::function<bool()>& stop) {
+  while (!stop() && !network_state_->trouble.empty()) {
+    const auto now = steady_clock::now();
+    presence_.Tick(now);
+    ShowMetricsIfDue(now);
+    for (exchange::Message& message : exchange_->Take(kWait)) Receive(std::move(message));
+  }
 }
 
 Result<void> Server::KeepMissions(std::unique_ptr<store::MissionStore> store) {
@@ -221,10 +232,7 @@ void Server::Serve() {
     retention_due_ = now + kRetentionEvery;
     DeleteOutdated();
   }
-  if (page_ && now >= metrics_due_) {
-    metrics_due_ = now + kMetricsEvery;
-    ShowMetrics();
-  }
+  ShowMetricsIfDue(now);
 }
 
 milliseconds Server::WaitForMessages() const {
@@ -349,7 +357,17 @@ std::string Server::Degraded() const {
   return degraded;
 }
 
-void Server::ShowMetrics() {
+std::string Server::Trouble() const {
+  if (const std::string& store = upkeep_->store_trouble(); !store.empty()) {
+    return "the store is away: " + store;
+  }
+  const std::string& network = network_state_->trouble;
+  return network.empty() ? "" : "no network: " + network;
+}
+
+void Server::ShowMetricsIfDue(steady_clock::time_point now) {
+  if (!page_ || now < metrics_due_) return;
+  metrics_due_ = now + kMetricsEvery;
   metrics_.keeper = keeper_->counters();
   metrics_.dropped = exchange_->dropped();
   metrics_.backlog = keeper_->backlog();
@@ -359,8 +377,10 @@ void Server::ShowMetrics() {
   metrics_.partial_routes = upkeep_->partial_routes();
   metrics_.lacking_segments = upkeep_->lacking_segments();
   metrics_.dropped_strays = upkeep_->dropped_strays();
+  metrics_.on_network = network_state_->trouble.empty();
+  metrics_.network_joins = network_state_->joins;
   if (network_) metrics_.joints.open = network_->open_proposals();
-  page_->Show({metrics_.Text(), upkeep_->store_trouble(), Degraded()});
+  page_->Show({metrics_.Text(), Trouble(), Degraded()});
 }
 
 void Server::ShowWhatItDoes() {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "route_server/fleet/fleet_news.h"
@@ -25,6 +26,7 @@
 #include "route_server/status/journal.h"
 #include "route_server/status/metrics.h"
 #include "services/catalog/view_catalog.h"
+#include "services/exchange/network_state.h"
 #include "services/exchange/route_keeper.h"
 #include "services/program/presence.h"
 #include "services/store/route_store.h"
@@ -54,6 +56,10 @@ class Server {
   [[nodiscard]] Result<void> KeepHistory(std::unique_ptr<store::HistoryStore> store);
   // Makes joints of sure proposals without asking an operator.
   void TakeSureJoints() { takes_sure_joints_ = true; }
+  // How `exchange` is on its network, from now on; without, it is taken to be there.
+  void Mind(std::shared_ptr<const exchange::NetworkState> network) {
+    network_state_ = std::move(network);
+  }
   // Keeps /metrics and /health up to date from now on.
   void ShowOn(std::unique_ptr<HttpPage> page) { page_ = std::move(page); }
 
@@ -65,6 +71,7 @@ class Server {
   Server(const AgentId& name, std::unique_ptr<store::RouteStore> store,
          std::unique_ptr<exchange::RouteExchange> exchange);
 
+  void WaitForNetwork(const std::function<bool()>& stop);
   void Receive(exchange::Message message);
   // Whether it waits for its turn, and counts among what its member may ask.
   [[nodiscard]] bool IsRequest(const exchange::Message& message) const;
@@ -108,13 +115,17 @@ class Server {
   void DeleteOutdated();
   // What is not as it should be while all are served, or nothing.
   [[nodiscard]] std::string Degraded() const;
-  void ShowMetrics();
+  // Why nobody can be served, or nothing.
+  [[nodiscard]] std::string Trouble() const;
+  void ShowMetricsIfDue(std::chrono::steady_clock::time_point now);
   void ShowWhatItDoes();
   void ShowStatus(exchange::AgentMode mode, const std::string& detail);
 
   std::unique_ptr<store::RouteStore> store_;
   catalog::ViewCatalog views_;
   std::unique_ptr<exchange::RouteExchange> exchange_;
+  std::shared_ptr<const exchange::NetworkState> network_state_ =
+      std::make_shared<exchange::NetworkState>();
   std::unique_ptr<exchange::RouteKeeper> keeper_;
   std::optional<Upkeep> upkeep_;  // once there is a keeper
   program::Presence presence_;

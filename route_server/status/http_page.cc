@@ -32,7 +32,7 @@ struct HttpPage::State {
     });
   }
   [[nodiscard]] std::string Health() const {
-    if (!shown.trouble.empty()) return "the store is away: " + shown.trouble + "\n";
+    if (!shown.trouble.empty()) return shown.trouble + "\n";
     return shown.degraded.empty() ? "ok\n" : "degraded: " + shown.degraded + "\n";
   }
 };

@@ -40,6 +40,10 @@ std::string Metrics::Text() const {
   lines.Add("agents", kGauge, "Agents present: the server's DDS peers.", agents);
   lines.Add("store_reachable", kGauge, "1 while the store can be read and written, else 0.",
             store_reachable ? 1 : 0);
+  lines.Add("on_network", kGauge, "1 while the server is on its network, else 0.",
+            on_network ? 1 : 0);
+  lines.Add("network_joins_total", kCounter,
+            "How often it has joined, more than once where the network changed.", network_joins);
   lines.Add("routes_partial", kGauge, "Complete routes of which segments are lacking or damaged.",
             partial_routes);
   lines.Add("segments_lacking", kGauge, "Segments of these that are asked for.", lacking_segments);

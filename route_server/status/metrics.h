@@ -51,6 +51,8 @@ struct Metrics {
   std::size_t backlog = 0;  // segments announced, not durable yet
   std::size_t agents = 0;   // present
   bool store_reachable = true;
+  bool on_network = true;
+  std::uint64_t network_joins = 0;
   std::size_t partial_routes = 0;                   // complete ones that lack segments here
   std::size_t lacking_segments = 0;                 // of these
   std::uint64_t dropped_strays = 0;                 // segments that nobody announced

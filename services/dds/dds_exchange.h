@@ -11,6 +11,7 @@
 #include "services/base/ids.h"
 #include "services/base/result.h"
 #include "services/dds/protocol_version.h"
+#include "services/exchange/network_state.h"
 #include "services/exchange/route_exchange.h"
 #include "services/security/member_keys.h"
 
@@ -32,6 +33,7 @@ class Domain;
 // be many members that are light.
 struct SharedDomain {
   std::weak_ptr<Domain> domain;
+  std::string by;  // the network interface that it was made for
 };
 
 struct DdsOptions {
@@ -39,8 +41,17 @@ struct DdsOptions {
   // Participants with different tags do not see each other: two swarms, or two tests, on one
   // network.
   std::string discovery_tag;
-  // "" lets Cyclone choose; "lo" works where there is nothing else.
+  // Empty: the best there is, with an IPv4 address, but never the loopback: that is for "lo" alone.
+  // When it goes, or has another address, the exchange leaves and joins anew, as with new keys.
   std::string network_interface;
+  // Where there is no network yet, or a server's name leads nowhere: wait for it, instead of
+  // failing.
+  bool waits_for_network = false;
+  // Told, in a line each, that it waits, that it has joined, and what has changed since. Called by
+  // OpenDdsExchange and Take.
+  std::function<void(const std::string& line)> tell_of_network{};
+  // Kept up to date by those, for the thread that calls them; null: nobody asks.
+  std::shared_ptr<exchange::NetworkState> network_state{};
   // Shown by DDS tools in the participant's user data, beside the version of the protocol; not with
   // keys: it is not encrypted.
   AgentId self;
@@ -77,6 +88,8 @@ struct DdsOptions {
 };
 
 // The bus over Cyclone DDS. One participant with the topics of `use`; QoS in qos_table.cc.
+// kUnavailable where there is no network to join and it is not to be waited for. Who was heard
+// before the exchange joined anew, and is not within ten seconds of that, is told to be gone.
 // Destroying it says good-bye for the statuses it published (AgentGone at the others) after
 // waiting, at most close_timeout, for its last messages to arrive.
 [[nodiscard]] Result<std::unique_ptr<exchange::RouteExchange>> OpenDdsExchange(

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "services/exchange/network_state.h"
 #include "services/exchange/route_exchange.h"
 #include "services/program/command_line.h"
 
@@ -18,9 +19,11 @@ namespace trailcast::program {
 inline constexpr std::chrono::seconds kHeartbeatInterval{1};
 inline constexpr std::chrono::seconds kHeartbeatStaleAfter{5};
 
-// `exchange`, whose Take renews `file`.
+// `exchange`, whose Take renews `file`. What keeps it off its `network` is told, too, and a server
+// is not well then; null: nothing ever does.
 [[nodiscard]] std::unique_ptr<exchange::RouteExchange> WithHeartbeat(
-    std::unique_ptr<exchange::RouteExchange> exchange, std::filesystem::path file);
+    std::unique_ptr<exchange::RouteExchange> exchange, std::filesystem::path file,
+    std::shared_ptr<const exchange::NetworkState> network = nullptr);
 
 // What the process does, in its own words. kNotFound without a file; kUnavailable when it was not
 // renewed for `stale_after`, or says that the process cannot go on.

@@ -58,15 +58,29 @@ class NetworkLab {
 
   // Has the address 10.77.0.`number`.
   void AddHost(int number) {
-    const pid_t pid = HoldNamespace();
-    hosts_[number] = pid;
-    const std::string port = Port(number);
-    Run({"ip", "link", "add", port, "type", "veth", "peer", "name", "eth0", "netns",
-         std::to_string(pid)});
-    Run({"ip", "link", "set", port, "master", "air", "up"});
-    const std::string address = "10.77.0." + std::to_string(number);
+    AddHostWithoutAddress(number);
+    GiveAddress(number, number);
+  }
+  // Its eth0 is up: a network that has yet to say what address it is to have.
+  void AddHostWithoutAddress(int number) {
+    hosts_[number] = HoldNamespace();
     Run(At(number, {"ip", "link", "set", "lo", "up"}));
-    Run(At(number, {"ip", "address", "add", address + "/24", "dev", "eth0"}));
+    MakeInterface(number);
+  }
+
+  // 10.77.0.`address`.
+  void GiveAddress(int number, int address) {
+    Run(At(number, {"ip", "address", "add", Address(address), "dev", "eth0"}));
+  }
+  void TakeAddress(int number, int address) {
+    Run(At(number, {"ip", "address", "delete", Address(address), "dev", "eth0"}));
+  }
+  // As a radio that is unplugged: the host has no eth0 until it is made anew, without an address.
+  void DeleteInterface(int number) { Run({"ip", "link", "delete", Port(number)}); }
+  void MakeInterface(int number) {
+    Run({"ip", "link", "add", Port(number), "type", "veth", "peer", "name", "eth0", "netns",
+         std::to_string(hosts_.at(number))});
+    Run({"ip", "link", "set", Port(number), "master", "air", "up"});
     Run(At(number, {"ip", "link", "set", "eth0", "up"}));
   }
 
@@ -118,6 +132,7 @@ class NetworkLab {
 
  private:
   static std::string Port(int number) { return "port" + std::to_string(number); }
+  static std::string Address(int address) { return "10.77.0." + std::to_string(address) + "/24"; }
 
   // The exit status of `run` in a child process.
   template <typename Function>

@@ -9,8 +9,12 @@
 #include <thread>
 #include <utility>
 
+#include "services/base/newest_map.h"
 #include "services/dds/src/arrivals.h"
+#include "services/dds/src/domain/cyclone_uri.h"
+#include "services/dds/src/domain/interfaces.h"
 #include "services/dds/src/domain/joined.h"
+#include "services/dds/src/domain/network_watch.h"
 #include "services/dds/src/domain/star_or_mesh.h"
 #include "services/dds/src/keys_watch.h"
 #include "services/dds/src/reminders.h"
@@ -30,8 +34,23 @@ using Clock = std::chrono::steady_clock;
 // One Take returns at most so many samples of a topic, so that a flood does not starve the others.
 constexpr std::size_t kMaxSamplesPerTake = 1024;
 
-// How often the keys' folder is looked at, and who is there.
+// How often the network and the keys' folder are looked at, and who is there.
 constexpr auto kLookEvery = std::chrono::seconds(1);
+
+// How soon joining is tried again: a name's address may be asked for in vain for seconds.
+constexpr auto kTriesAgain = std::chrono::seconds(1);
+constexpr auto kTriesAgainAtMost = std::chrono::seconds(8);
+
+// As long as others take to notice that one has ended: for those who were heard before this
+// exchange joined anew to be heard again.
+constexpr auto kHeardAgain = std::chrono::seconds(10);
+constexpr std::size_t kMostHeard = 20'000;  // strangers can make up names
+
+NetworkWatch WatchFor(const DdsOptions& options) {
+  const bool cyclone = options.network_interface.empty() && ChoosesInterfaces(UriXml(CycloneUri()));
+  return NetworkWatch(options.network_interface,
+                      cyclone ? NetworkWatch::By::kCyclone : NetworkWatch::By::kOne);
+}
 
 double RandomShare() {
   std::random_device random;
@@ -43,6 +62,7 @@ class DdsExchange : public exchange::RouteExchange {
   DdsExchange(const DdsOptions& options, exchange::TopicUse use)
       : options_(options),
         use_(std::move(use)),
+        network_(WatchFor(options)),
         star_or_mesh_(options.discovery, RandomShare()),
         versions_(options.protocol_version, options.keys.has_value()) {
     if (options_.keys) keys_watch_.emplace(*options_.keys, options_.tell_of_stranger);
@@ -51,7 +71,7 @@ class DdsExchange : public exchange::RouteExchange {
   DdsExchange(const DdsExchange&) = delete;
   DdsExchange& operator=(const DdsExchange&) = delete;
 
-  Result<void> Join();
+  Result<void> Open();
 
   Result<void> Publish(const Message& message) override;
   void Gather() override { gathers_ = true; }
@@ -61,6 +81,14 @@ class DdsExchange : public exchange::RouteExchange {
   [[nodiscard]] std::uint64_t dropped() const override { return dropped_; }
 
  private:
+  Result<void> OpenOrWait(Clock::time_point now);
+  Result<void> Join();
+  void TryToJoin(Clock::time_point now);
+  void LookAtNetwork(Clock::time_point now);
+  void TellOfNetwork(const std::string& line);
+  [[nodiscard]] std::string WhyNotJoined() const;
+  void ShowNetworkState();
+  void TellWhoIsMissing(Clock::time_point now);
   Result<void> Write(exchange::Topic topic, const Message& message);
   Result<void> OpenForSegmentsOf(const route::RouteKey& route);
   Result<void> OpenScopes(exchange::Topic topic);
@@ -81,7 +109,9 @@ class DdsExchange : public exchange::RouteExchange {
 
   // With keys.
   void TakeUpNewKeys();
+  void LeaveForNewKeys();
   void TakeRevocations();
+  void TellOfWarnings(Clock::time_point now);
   void TellOfStrangers(Clock::time_point now);
   [[nodiscard]] bool IsAuthentic(const Reader& reader, dds_instance_handle_t writer,
                                  Message& message);
@@ -96,21 +126,64 @@ class DdsExchange : public exchange::RouteExchange {
   std::set<Place> gathered_;  // writers with something to be flushed
   Reminders reminders_;       // in a star
 
-  // By instance, and not gone since; unless nothing makes this exchange ever join anew.
-  std::map<std::string, exchange::AgentGone> heard_;
+  NetworkWatch network_;
+  std::string line_;     // to be told of the network once it has joined
+  std::string why_not_;  // joining failed; empty: it did not
+  Clock::time_point try_at_{};
+  Clock::duration tries_again_ = kTriesAgain;
+  std::uint64_t joins_ = 0;
+
+  // By instance, and not gone since.
+  NewestMap<std::string, exchange::AgentGone> heard_{kMostHeard};
+  // Heard before this exchange left, and not since; until when they may be heard again.
+  std::map<std::string, std::pair<exchange::AgentGone, Clock::time_point>> missing_;
   std::vector<Message> gone_;  // to be told with the next Take
   StarOrMesh star_or_mesh_;
   Clock::time_point look_at_{};
 
+  CycloneWarnings warnings_;
   std::optional<KeysWatch> keys_watch_;  // with keys
+  bool keys_changed_ = false;            // since it last joined
   StrangerWatch strangers_;
   VersionWatch versions_;
   Arrivals arrivals_;
 };
 
+Result<void> DdsExchange::Open() {
+  auto opened = OpenOrWait(Clock::now());
+  ShowNetworkState();
+  return opened;
+}
+
+Result<void> DdsExchange::OpenOrWait(Clock::time_point now) {
+  network_.Begin(Interfaces(), now);
+  if (network_.chosen().empty()) {
+    if (!options_.waits_for_network) return Fail(ErrorCode::kUnavailable, "{}", network_.trouble());
+    TellOfNetwork("waiting for the network: " + network_.trouble());
+    return {};
+  }
+  auto joined = Join();
+  if (joined || !options_.waits_for_network || joined.error().code != ErrorCode::kUnavailable) {
+    return joined;
+  }
+  why_not_ = joined.error().message;
+  TellOfNetwork("waiting for the network: " + why_not_);
+  return {};
+}
+
+std::string DdsExchange::WhyNotJoined() const {
+  if (joined_) return "";
+  return network_.chosen().empty() ? network_.trouble() : why_not_;
+}
+
+void DdsExchange::ShowNetworkState() {
+  if (options_.network_state) *options_.network_state = {WhyNotJoined(), joins_};
+}
+
 Result<void> DdsExchange::Join() {
   joined_.reset();
-  auto joined = Joined::Open(options_, use_, star_or_mesh_.star());
+  auto joined =
+      Joined::Open(options_, use_, star_or_mesh_.star(), network_.chosen().front().address);
   if (!joined) return tl::unexpected(joined.error());
   joined_ = *std::move(joined);
   versions_.Forget();
@@ -122,8 +195,12 @@ Result<void> DdsExchange::Join() {
         "machine's address do not find this server; those with multicast do");
   }
   for (const exchange::Topic topic : use_.listen) {
-    if (auto opened = OpenScopes(topic); !opened) return opened;
+    if (auto opened = OpenScopes(topic); !opened) {
+      joined_.reset();
+      return opened;
+    }
   }
+  ++joins_;
   return {};
 }
 
@@ -147,13 +224,21 @@ Result<void> DdsExchange::OpenScopes(exchange::Topic topic) {
   return joined_->Listen(topic, scopes, options_);
 }
 
-// Who ends while this exchange joins anew would never be told gone: all are, until heard again.
 void DdsExchange::Leave() {
-  SayGoodBye();
   reminders_.Clear();
   joined_.reset();
-  for (const auto& [instance, gone] : heard_) gone_.emplace_back(gone);
-  heard_.clear();
+  const auto until = Clock::now() + kHeardAgain;
+  for (const auto& [instance, gone] : heard_) missing_.try_emplace(instance, gone, until);
+  heard_ = NewestMap<std::string, exchange::AgentGone>(kMostHeard);
+}
+
+// Who ended while this exchange joined anew would never be told gone.
+void DdsExchange::TellWhoIsMissing(Clock::time_point now) {
+  std::erase_if(missing_, [&](const auto& entry) {
+    const auto& [gone, until] = entry.second;
+    if (now >= until) gone_.emplace_back(gone);
+    return now >= until;
+  });
 }
 
 Result<void> DdsExchange::Publish(const Message& message) {
@@ -163,7 +248,7 @@ Result<void> DdsExchange::Publish(const Message& message) {
                 topic ? exchange::NameOf(*topic) : "AgentGone is no topic and");
   }
   if (auto ok = exchange::CheckBounds(message); !ok) return ok;
-  if (!joined_) return Fail(ErrorCode::kUnavailable, "the keys cannot be used at present");
+  if (!joined_) return Fail(ErrorCode::kUnavailable, "not on the network: {}", WhyNotJoined());
   if (!MayUse(options_, *topic)) {
     return Fail(ErrorCode::kUnavailable, "the keys are of before there was {}: renew them",
                 exchange::NameOf(*topic));
@@ -307,13 +392,15 @@ void DdsExchange::TakeFrom(const Place& place, Reader& reader, std::vector<Messa
 
 void DdsExchange::NoteWhoIsHeard(const Message& message) {
   star_or_mesh_.Hear(message);
-  if (!options_.keys && options_.discovery != Discovery::kAuto) return;
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
-    heard_.insert_or_assign(exchange::InstanceOf(message),
-                            exchange::AgentGone{status->agent, status->instance});
+    const std::string instance = exchange::InstanceOf(message);
+    heard_.Touch(instance) = exchange::AgentGone{status->agent, status->instance};
+    missing_.erase(instance);
   } else if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
-    heard_.erase(exchange::InstanceOf(
-        exchange::AgentStatus{.agent = gone->agent, .instance = gone->instance}));
+    const std::string instance = exchange::InstanceOf(
+        exchange::AgentStatus{.agent = gone->agent, .instance = gone->instance});
+    heard_.Erase(instance);
+    missing_.erase(instance);
   }
 }
 
@@ -338,26 +425,66 @@ void DdsExchange::KeepWatch() {
   const auto now = Clock::now();
   if (now < look_at_) return;
   look_at_ = now + kLookEvery;
+  LookAtNetwork(now);
   if (options_.keys) TakeUpNewKeys();
   if (joined_) LookAtPeers(now);
-  if (options_.discovery != Discovery::kMesh) MeetOthers(now);
+  if (joined_ && options_.discovery != Discovery::kMesh) MeetOthers(now);
+  if (!joined_ && !network_.chosen().empty() && now >= try_at_) TryToJoin(now);
+  TellWhoIsMissing(now);
+  ShowNetworkState();
+}
+
+// Nobody is told good-bye: the way to them is gone, or soon another.
+void DdsExchange::LookAtNetwork(Clock::time_point now) {
+  const NetworkWatch::Step step = network_.Look(Interfaces(), now);
+  if (step == NetworkWatch::Step::kNone) return;
+  Leave();
+  try_at_ = {};
+  why_not_.clear();
+  if (step == NetworkWatch::Step::kLeave) {
+    TellOfNetwork(network_.change());
+  } else {
+    line_ = network_.change();
+  }
+}
+
+void DdsExchange::TryToJoin(Clock::time_point now) {
+  if (const auto joined = Join(); !joined) {
+    try_at_ = now + tries_again_;
+    tries_again_ = std::min<Clock::duration>(2 * tries_again_, kTriesAgainAtMost);
+    const std::string& why = joined.error().message;
+    if (keys_changed_) {
+      keys_watch_->TellOnce("cannot join with the changed keys: " + why);
+    } else if (why != why_not_) {
+      TellOfNetwork("cannot join, trying again: " + why);
+    }
+    why_not_ = why;
+    return;
+  }
+  tries_again_ = kTriesAgain;
+  if (std::exchange(keys_changed_, false)) {
+    keys_watch_->TellOnce("joined anew with the keys as they are now, and " +
+                          Describe(options_.keys->revoked));
+  } else if (line_.empty() && !why_not_.empty()) {
+    line_ = "on the network";
+  }
+  if (!line_.empty()) TellOfNetwork(std::exchange(line_, {}));
+  why_not_.clear();
+}
+
+void DdsExchange::TellOfNetwork(const std::string& line) {
+  if (options_.tell_of_network) options_.tell_of_network(line);
 }
 
 void DdsExchange::MeetOthers(Clock::time_point now) {
-  if (joined_) {
-    const StarOrMesh::Step step = star_or_mesh_.Look(joined_->Look(), now);
-    // What is not heard now is said again.
-    if (step == StarOrMesh::Step::kCall) (void)joined_->participant.Call();
-    if (step != StarOrMesh::Step::kJoinAnew) return;
-    Leave();
-    TellOfDiscovery(star_or_mesh_.star() ? "a route server is there: going by it alone"
-                                         : "no route server is there: looking for everybody");
-  } else if (options_.keys) {
-    return;  // they are waited for
-  }
-  if (const auto joined = Join(); !joined) {
-    TellOfDiscovery("cannot join, trying again: " + joined.error().message);
-  }
+  const StarOrMesh::Step step = star_or_mesh_.Look(joined_->Look(), now);
+  // What is not heard now is said again.
+  if (step == StarOrMesh::Step::kCall) (void)joined_->participant.Call();
+  if (step != StarOrMesh::Step::kJoinAnew) return;
+  SayGoodBye();
+  Leave();
+  TellOfDiscovery(star_or_mesh_.star() ? "a route server is there: going by it alone"
+                                       : "no route server is there: looking for everybody");
 }
 
 void DdsExchange::TellOfDiscovery(const std::string& line) {
@@ -367,18 +494,18 @@ void DdsExchange::TellOfDiscovery(const std::string& line) {
 void DdsExchange::TakeUpNewKeys() {
   if (auto keys = keys_watch_->Look(*options_.keys)) {
     options_.keys = *std::move(keys);
-    Leave();
+    LeaveForNewKeys();
   }
-  if (joined_) {
-    if (std::chrono::system_clock::now() < options_.keys->expires) return;
-    keys_watch_->TellOnce("the keys expired on " + security::ToText(options_.keys->expires) +
-                          ": nobody believes this program any more until they are renewed");
-  } else if (const auto joined = Join()) {
-    keys_watch_->TellOnce("joined anew with the keys as they are now, and " +
-                          Describe(options_.keys->revoked));
-  } else {
-    keys_watch_->TellOnce("cannot join with the changed keys: " + joined.error().message);
-  }
+  if (!joined_ || std::chrono::system_clock::now() < options_.keys->expires) return;
+  keys_watch_->TellOnce("the keys expired on " + security::ToText(options_.keys->expires) +
+                        ": nobody believes this program any more until they are renewed");
+}
+
+void DdsExchange::LeaveForNewKeys() {
+  SayGoodBye();
+  Leave();
+  keys_changed_ = true;
+  try_at_ = {};
 }
 
 void DdsExchange::TakeRevocations() {
@@ -388,7 +515,7 @@ void DdsExchange::TakeRevocations() {
     newer = keys_watch_->TakeList(text, from, *options_.keys) || newer;
   }
   if (!newer) return;
-  Leave();
+  LeaveForNewKeys();
   look_at_ = {};  // to join anew with the next Take
 }
 
@@ -411,16 +538,28 @@ void DdsExchange::LookAtPeers(Clock::time_point now) {
                                    strangers_.Lose(participant);
                                    versions_.Lose(participant);
                                  }});
+  TellOfWarnings(now);
   if (options_.keys) TellOfStrangers(now);
   for (const std::string& line : versions_.Tick(now)) {
     if (options_.tell_of_version) options_.tell_of_version(line);
   }
 }
 
-void DdsExchange::TellOfStrangers(Clock::time_point now) {
+void DdsExchange::TellOfWarnings(Clock::time_point now) {
+  if (!joined_->log) return;
   for (const std::string& line : joined_->log->Take()) {
-    if (!strangers_.HandleWarning(line, now)) std::fprintf(stderr, "%s\n", line.c_str());
+    if (options_.keys && strangers_.HandleWarning(line, now)) continue;
+    const std::string told = warnings_.Note(line, now);
+    if (told.empty()) continue;
+    if (options_.tell_of_network) {
+      options_.tell_of_network("the DDS library: " + told);
+    } else {
+      std::fprintf(stderr, "%s\n", told.c_str());
+    }
   }
+}
+
+void DdsExchange::TellOfStrangers(Clock::time_point now) {
   for (const std::string& line : strangers_.Tick(now)) {
     if (options_.tell_of_stranger) options_.tell_of_stranger(line);
   }
@@ -448,7 +587,7 @@ Result<std::unique_ptr<exchange::RouteExchange>> OpenDdsExchange(const DdsOption
                 "the agent's name is not 1 to 64 of letters, digits, '_', '.', '-'");
   }
   auto exchange = std::make_unique<DdsExchange>(options, use);
-  if (auto joined = exchange->Join(); !joined) return tl::unexpected(joined.error());
+  if (auto opened = exchange->Open(); !opened) return tl::unexpected(opened.error());
   return exchange;
 }
 

@@ -76,7 +76,8 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
                  "DDS domain tag: processes with other tags do not meet either")
       ->envname("TRAILCAST_DDS_TAG");
   app.add_option("--network-interface", options.network_interface,
-                 "Network interface for DDS, as 'lo' or 'wlan0'; empty: DDS chooses")
+                 "Network interface for DDS, as 'lo' or 'wlan0'; empty: the best that is up and "
+                 "has an IPv4 address, never 'lo'")
       ->envname("TRAILCAST_NETWORK_INTERFACE");
   app.add_option("--discovery", options.discovery,
                  "Whom to meet: 'star' the route servers alone, 'mesh' everybody, which costs "

@@ -29,8 +29,9 @@ std::string Words(const AgentStatus& status) {
 
 class ExchangeWithHeartbeat final : public exchange::RouteExchange {
  public:
-  ExchangeWithHeartbeat(std::unique_ptr<exchange::RouteExchange> exchange, fs::path file)
-      : exchange_(std::move(exchange)), file_(std::move(file)) {}
+  ExchangeWithHeartbeat(std::unique_ptr<exchange::RouteExchange> exchange, fs::path file,
+                        std::shared_ptr<const exchange::NetworkState> network)
+      : exchange_(std::move(exchange)), file_(std::move(file)), network_(std::move(network)) {}
 
   Result<void> Publish(const exchange::Message& message) override {
     if (const auto* status = std::get_if<AgentStatus>(&message)) {
@@ -69,7 +70,12 @@ class ExchangeWithHeartbeat final : public exchange::RouteExchange {
     fs::path other = file_;
     other += ".new";
     std::ofstream out(other, std::ios::trunc);
-    out << (status_.mode == AgentMode::kFault ? kFault : kWell) << '\n' << Words(status_) << '\n';
+    const std::string trouble = network_ ? network_->trouble : "";
+    // A robot goes on by itself; a server serves nobody then.
+    const bool faulty = status_.mode == AgentMode::kFault ||
+                        (status_.role == exchange::AgentRole::kServer && !trouble.empty());
+    out << (faulty ? kFault : kWell) << '\n'
+        << Words(status_) << (trouble.empty() ? "" : "; no network: " + trouble) << '\n';
     out.close();
     std::error_code error;
     if (out) fs::rename(other, file_, error);
@@ -78,6 +84,7 @@ class ExchangeWithHeartbeat final : public exchange::RouteExchange {
 
   std::unique_ptr<exchange::RouteExchange> exchange_;
   fs::path file_;
+  std::shared_ptr<const exchange::NetworkState> network_;
   AgentStatus status_;
   std::chrono::steady_clock::time_point next_{};
   bool complained_ = false;
@@ -86,8 +93,10 @@ class ExchangeWithHeartbeat final : public exchange::RouteExchange {
 }  // namespace
 
 std::unique_ptr<exchange::RouteExchange> WithHeartbeat(
-    std::unique_ptr<exchange::RouteExchange> exchange, fs::path file) {
-  return std::make_unique<ExchangeWithHeartbeat>(std::move(exchange), std::move(file));
+    std::unique_ptr<exchange::RouteExchange> exchange, fs::path file,
+    std::shared_ptr<const exchange::NetworkState> network) {
+  return std::make_unique<ExchangeWithHeartbeat>(std::move(exchange), std::move(file),
+                                                 std::move(network));
 }
 
 Result<std::string> ReadHeartbeat(const fs::path& file, std::chrono::milliseconds stale_after) {

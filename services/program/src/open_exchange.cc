@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "services/base/process_name.h"
 #include "services/dds/dds_exchange.h"
@@ -87,8 +88,9 @@ bool IsAgent(const exchange::TopicUse& use) { return use.Writes(exchange::Topic:
 
 }  // namespace
 
-Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(const CommonOptions& options,
-                                                              const exchange::TopicUse& use) {
+Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(
+    const CommonOptions& options, const exchange::TopicUse& use,
+    std::shared_ptr<exchange::NetworkState> network) {
   dds::DdsOptions dds;
   dds.domain_id = static_cast<std::uint32_t>(options.domain);
   dds.discovery_tag = options.dds_tag;
@@ -97,8 +99,11 @@ Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(const CommonOption
   dds.serves = IsServer(use);
   dds.discovery = dds.serves ? dds::Discovery::kMesh : DiscoveryOf(options.discovery);
   dds.server_addresses = options.server_addresses;
+  dds.network_state = network ? std::move(network) : std::make_shared<exchange::NetworkState>();
+  dds.waits_for_network = IsAgent(use);
   // A command that is over in a moment has no log to watch.
   if (IsAgent(use)) {
+    dds.tell_of_network = [](const std::string& line) { spdlog::warn("{}", line); };
     dds.tell_of_discovery = [](const std::string& line) { spdlog::info("{}", line); };
   }
   dds.tell_of_version = [](const std::string& line) { spdlog::warn("{}", line); };
@@ -112,7 +117,7 @@ Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(const CommonOption
   auto opened = dds::OpenDdsExchange(dds, use);
   if (!opened) return Wrap(opened.error(), "joining the network");
   if (options.heartbeat.empty()) return opened;
-  return WithHeartbeat(*std::move(opened), options.heartbeat);
+  return WithHeartbeat(*std::move(opened), options.heartbeat, dds.network_state);
 }
 
 bool KeysAllow(const CommonOptions& options, const exchange::TopicUse& use) {

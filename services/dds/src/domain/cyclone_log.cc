@@ -1,5 +1,8 @@
 #include "services/dds/src/domain/cyclone_log.h"
 
+#include <fmt/format.h>
+
+#include <cctype>
 #include <cstdio>
 #include <map>
 #include <mutex>
@@ -54,6 +57,21 @@ std::vector<std::string> CycloneLog::Take() {
   Sink& sink = TheSink();
   const std::lock_guard lock(sink.mutex);
   return std::exchange(sink.lines[domain_], {});
+}
+
+std::string CycloneWarnings::Note(const std::string& line, Time now) {
+  std::string alike;
+  for (const char c : line) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
+    if (!digit || alike.empty() || alike.back() != '0') alike += digit ? '0' : c;
+  }
+  if (!told_.IsDue(alike, now)) {
+    if (untold_.size() < ToldLately::kMost || untold_.contains(alike)) ++untold_[alike];
+    return "";
+  }
+  const auto counted = untold_.extract(alike);
+  if (counted.empty()) return line;
+  return fmt::format("{} (and {} alike since that was last told)", line, counted.mapped());
 }
 
 }  // namespace trailcast::dds

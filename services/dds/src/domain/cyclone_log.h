@@ -2,8 +2,13 @@
 
 #include <dds/dds.h>
 
+#include <chrono>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
+
+#include "services/base/told_lately.h"
 
 namespace trailcast::dds {
 
@@ -23,6 +28,20 @@ class CycloneLog {
 
  private:
   dds_domainid_t domain_;
+};
+
+// Cyclone warns of each packet that it cannot send: lines that differ in numbers alone are told
+// once, and counted until they are told again, after ten minutes. No clock.
+class CycloneWarnings {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  // What is to be told of `line` now; empty: nothing.
+  [[nodiscard]] std::string Note(const std::string& line, Time now);
+
+ private:
+  ToldLately told_{std::chrono::minutes(10)};
+  std::map<std::string, std::uint64_t> untold_;  // by what they have alike
 };
 
 }  // namespace trailcast::dds

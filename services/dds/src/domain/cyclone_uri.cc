@@ -1,11 +1,18 @@
 #include "services/dds/src/domain/cyclone_uri.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <regex>
 
 namespace trailcast::dds {
+
+std::string CycloneUri() {
+  // Nobody writes to the environment.
+  const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
+  return uri == nullptr ? "" : uri;
+}
 
 std::string UriXml(const std::string& uri) {
   std::string xml;

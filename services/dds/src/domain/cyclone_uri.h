@@ -4,6 +4,9 @@
 
 namespace trailcast::dds {
 
+// What the environment says; empty: nothing.
+[[nodiscard]] std::string CycloneUri();
+
 // The XML that a CYCLONEDDS_URI stands for, as far as it can be read: it names files, or is XML.
 [[nodiscard]] std::string UriXml(const std::string& uri);
 

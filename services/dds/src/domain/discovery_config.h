@@ -12,6 +12,7 @@ struct Meeting {
   bool star = false;         // else a mesh
   bool fixed_ports = false;  // those at which others know a route server
   bool sends_much = false;   // segments, not only what is small
+  std::string address{};  // of the interface to go by where none is named; empty: Cyclone chooses
 };
 
 // Cyclone's XML for whom to meet, as a configuration of its own. Resolves the server addresses:

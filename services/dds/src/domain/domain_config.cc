@@ -130,6 +130,12 @@ Result<std::string> DomainConfig(const DdsOptions& options, const Meeting& meeti
         "<NetworkInterface name=\"{}\" multicast=\"true\"/></Interfaces></General>",
         options.network_interface);
   }
+  if (options.network_interface.empty() && !meeting.address.empty() &&
+      !ChoosesInterfaces(UriXml(cyclonedds_uri))) {
+    general = fmt::format(
+        "<General><Interfaces><NetworkInterface address=\"{}\"/></Interfaces></General>",
+        meeting.address);
+  }
   std::string config = kDefaults;
   if (meeting.star || options.serves) config += std::string(",") + kStar;
   if (meeting.star && !meeting.sends_much) config += std::string(",") + kSendsLittle;

@@ -3,9 +3,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
+#include "services/dds/src/domain/cyclone_uri.h"
 #include "services/dds/src/domain/domain_config.h"
 #include "services/dds/src/domain/host_name.h"
 #include "services/dds/src/domain/user_data.h"
@@ -18,16 +18,15 @@ namespace {
 
 Result<std::shared_ptr<Domain>> MakeDomain(const DdsOptions& options, const Meeting& meeting) {
   if (options.shared_domain) {
-    if (auto domain = options.shared_domain->domain.lock()) return domain;
+    auto domain = options.shared_domain->domain.lock();
+    if (domain && options.shared_domain->by == meeting.address) return domain;
   }
-  // Read before any thread of ours exists; nobody writes to the environment.
-  const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
-  const auto config = DomainConfig(options, meeting, uri == nullptr ? "" : uri);
+  const auto config = DomainConfig(options, meeting, CycloneUri());
   if (!config) return tl::unexpected(config.error());
   auto made = Domain::Create(*config);
   if (!made) return tl::unexpected(made.error());
   auto domain = std::make_shared<Domain>(*std::move(made));
-  if (options.shared_domain) options.shared_domain->domain = domain;
+  if (options.shared_domain) *options.shared_domain = {domain, meeting.address};
   return domain;
 }
 
@@ -46,13 +45,15 @@ Result<Joined> OpenDomain(const DdsOptions& options, Meeting meeting) {
   }
   if (!domain) return tl::unexpected(domain.error());
   std::unique_ptr<CycloneLog> log;
-  if (options.keys) log = std::make_unique<CycloneLog>((*domain)->id());
+  if (!options.shared_domain) log = std::make_unique<CycloneLog>((*domain)->id());
   const bool hidden = options.keys.has_value();
   const UserData data{hidden ? "" : options.self.value(), options.protocol_version};
   auto participant = Participant::Create(**domain, ToText(data), hidden);
   if (!participant) {
     Error error = participant.error();
-    if (log) error.message = fmt::format("{}: {}", error.message, fmt::join(log->Take(), "; "));
+    if (log && hidden) {
+      error.message = fmt::format("{}: {}", error.message, fmt::join(log->Take(), "; "));
+    }
     return tl::unexpected(error);
   }
   auto peers = Peers::Create(*participant, hidden);
@@ -60,8 +61,8 @@ Result<Joined> OpenDomain(const DdsOptions& options, Meeting meeting) {
   auto wait_set = WaitSet::Create(*participant);
   if (!wait_set) return tl::unexpected(wait_set.error());
   return Joined{.meeting = meeting,
-                .domain = *std::move(domain),
                 .log = std::move(log),
+                .domain = *std::move(domain),
                 .participant = *std::move(participant),
                 .peers = *std::move(peers),
                 .wait_set = *std::move(wait_set)};
@@ -109,12 +110,14 @@ Result<void> OpenTopics(Joined& joined, const DdsOptions& options, const exchang
 
 }  // namespace
 
-Result<Joined> Joined::Open(const DdsOptions& options, const exchange::TopicUse& use, bool star) {
+Result<Joined> Joined::Open(const DdsOptions& options, const exchange::TopicUse& use, bool star,
+                            const std::string& address) {
   const bool fixed_ports = options.serves && FixedPortsAreFree(options.domain_id);
   const bool sends_much =
       std::count(use.write.begin(), use.write.end(), exchange::Topic::kSegments) > 0;
-  auto joined =
-      OpenDomain(options, {.star = star, .fixed_ports = fixed_ports, .sends_much = sends_much});
+  auto joined = OpenDomain(
+      options,
+      {.star = star, .fixed_ports = fixed_ports, .sends_much = sends_much, .address = address});
   if (!joined) return joined;
   if (options.discovery != Discovery::kMesh) {
     auto others = Reader::CreateBuiltin(joined->participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT);

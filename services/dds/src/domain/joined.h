@@ -28,8 +28,8 @@ struct Place {
 // What an exchange has open on the network; deleted from the end.
 struct Joined {
   Meeting meeting;
+  std::unique_ptr<CycloneLog> log;  // of a domain of its own, of which it has the last words, too
   std::shared_ptr<Domain> domain;
-  std::unique_ptr<CycloneLog> log;  // with keys
   Participant participant;
   Peers peers;
   WaitSet wait_set;
@@ -41,11 +41,12 @@ struct Joined {
   std::optional<Reader> participants{};          // unless it is in a mesh for good
   std::set<dds_instance_handle_t> present{};     // of these, itself included
 
-  // With keys: writers in the member's own partition and those below, readers in all. Of topics to
-  // which one listens by route nothing is open at first. A route server takes the fixed ports if it
-  // can: `meeting` says whether it has.
+  // By the interface that has `address`, where neither the options nor Cyclone's configuration
+  // names one. With keys: writers in the member's own partition and those below, readers in all. Of
+  // topics to which one listens by route nothing is open at first. A route server takes the fixed
+  // ports if it can: `meeting` says whether it has.
   [[nodiscard]] static Result<Joined> Open(const DdsOptions& options, const exchange::TopicUse& use,
-                                           bool star);
+                                           bool star, const std::string& address);
   // Who is connected at present.
   [[nodiscard]] StarOrMesh::Seen Look();
 

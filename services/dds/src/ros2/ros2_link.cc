@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
-#include <cstdlib>
 #include <mutex>
 #include <utility>
 
@@ -59,11 +58,6 @@ Qos ReliableQos(int keep_last) {
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_MSECS(kWriteTimeout.count()));
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, keep_last);
   return qos;
-}
-
-std::string CycloneUri() {
-  const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
-  return uri == nullptr ? "" : uri;
 }
 
 // A participant of the robot's domain, for either end.

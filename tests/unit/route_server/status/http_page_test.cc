@@ -59,7 +59,7 @@ TEST(HttpPage, IsNotWellOnceNothingIsShownAnyMore) {
 TEST(HttpPage, SaysWhyNobodyCanBeServedAndWhatIsServedInPart) {
   const auto page = HttpPage::Open("127.0.0.1", 0, Complain).value();
   httplib::Client client("127.0.0.1", page->port());
-  page->Show({"", "no database", "1 route"});
+  page->Show({"", "the store is away: no database", "1 route"});
   EXPECT_EQ(client.Get("/health")->status, 503);
   EXPECT_EQ(client.Get("/health")->body, "the store is away: no database\n");
   page->Show({"", "", "1 route"});
