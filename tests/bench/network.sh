@@ -8,15 +8,16 @@
 #   tests/bench/network.sh fleet [AGENTS [MINUTES]]
 #   tests/bench/network.sh neighbours [FOLLOWERS [SECONDS]]
 #   tests/bench/network.sh sizes FOLDER [AGENTS...]
+#   tests/bench/network.sh sites [SEGMENTS]
 # LIGHT_HOSTS (20) says at how many hosts the agents of `fleet`, `neighbours` and `sizes` are.
-# What each is, is in a file of its own: network_fetching.sh, _wire, _server, _fleet, _words.
+# What each is, is in a file of its own: network_fetching.sh, _wire, _server, _fleet, _words, _sites.
 # shellcheck disable=SC2034  # what the sourced files use
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 bin=$(cd "$here/../../build/release/bin" && pwd)
 # shellcheck source=tests/bench/network_lab.sh
 source "$here/network_lab.sh"
-for part in fetching wire server fleet words; do
+for part in fetching wire server fleet words sites; do
   # shellcheck source=/dev/null
   source "$here/network_$part.sh"
 done
@@ -95,9 +96,9 @@ die() {
 
 main() {
   case ${1:-} in
-    followers | idle | stall | loss | wire | bulk | ingest | latency | memory | security | stop | swarm | fleet | neighbours | sizes) ;;
+    followers | idle | stall | loss | wire | bulk | ingest | latency | memory | security | stop | swarm | fleet | neighbours | sizes | sites) ;;
     *)
-      die 'say what to measure: followers, idle, stall, loss, wire, bulk, ingest, latency, memory, security, stop, swarm, fleet, neighbours or sizes'
+      die 'say what to measure: followers, idle, stall, loss, wire, bulk, ingest, latency, memory, security, stop, swarm, fleet, neighbours, sizes or sites'
       ;;
   esac
   [[ $(id -u) == 0 ]] || die 'needs root, to stage networks'

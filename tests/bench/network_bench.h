@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -56,6 +57,25 @@ struct LightAgentOptions {
 // Has a robot that follows a route pause, and go on, so many times: prints when it was told to (ms
 // since 1970) and after how many ms its answer was there.
 [[nodiscard]] Result<void> MeasureStops(const std::string& robot, int samples);
+
+struct LinkOptions {
+  int from_pid = 0;  // processes in the two networks
+  int to_pid = 0;
+  std::chrono::milliseconds delay{0};  // each way
+  double loss = 0.0;                   // share of the packets, each way
+};
+// A line between two networks, the interface "wan" in both, until a signal. Says "ready".
+[[nodiscard]] Result<void> RunLink(const LinkOptions& options);
+
+struct MeetingOptions {
+  std::string server_address;  // empty: by multicast
+  std::string network_interface = "eth0";
+  int queries = 50;
+  double patience_s = 120.0;
+};
+// Joins a star, and asks the catalog for one route again and again: prints after how many ms the
+// server was heard, and the median and the 99th percentile of ms until an answer.
+[[nodiscard]] Result<void> MeasureMeeting(const MeetingOptions& options);
 
 // Group commits of pieces by SQLite's own interface, nothing of ours around it.
 [[nodiscard]] Result<void> MeasureCommits(const std::filesystem::path& folder, int group);

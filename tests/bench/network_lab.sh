@@ -15,9 +15,9 @@ lab_open() {
   ip link set air up
 }
 
-# lab_host NUMBER: 10.77.0.NUMBER on eth0; from 256 on 10.77.1.0 and so on.
+# lab_host NUMBER [BRIDGE ADDRESS]: 10.77.0.NUMBER on eth0; from 256 on 10.77.1.0 and so on.
 lab_host() {
-  local number=$1 pid
+  local number=$1 bridge=${2:-air} address=${3:-$(lab_address "$1")} pid
   setpriv --pdeathsig KILL unshare --net sleep infinity &
   pid=$!
   disown "$pid"
@@ -25,9 +25,9 @@ lab_host() {
     [[ $(cat "/proc/$pid/comm") == sleep ]]; do sleep 0.01; done
   host_pid[$number]=$pid
   ip link add "port$number" type veth peer name eth0 address "$(lab_mac "$number")" netns "$pid"
-  ip link set "port$number" master air up
+  ip link set "port$number" master "$bridge" up
   on "$number" ip link set lo up
-  on "$number" ip address add "$(lab_address "$number")/16" dev eth0
+  on "$number" ip address add "$address/16" dev eth0
   on "$number" ip link set eth0 up
 }
 
