@@ -73,16 +73,6 @@ TEST_F(DiscoveryTest, WithoutMulticastNobodyIsFoundUnlessToldAnAddress) {
   EXPECT_THAT(lost.output, HasSubstr("no route server answered"));
 }
 
-// Kept up as by its unit: the DDS library aborts a server that is just sending to a robot whose
-// connection ends (config/README.md, NAT).
-TEST_F(DiscoveryTest, ByTcpTheServersAddressIsEnough) {
-  lab_->ForbidMulticast();
-  StartServer({File("tcp-server.xml"), "/bin/sh", "-c",
-               R"(while setpriv --pdeathsig KILL "$0" "$@"; [ $? -eq 134 ]; do :; done)"});
-  ExpectShared(
-      {File("tcp-agent.xml"), "TRAILCAST_DISCOVERY=star", "TRAILCAST_SERVER_ADDRESS=10.77.0.1"});
-}
-
 TEST_F(DiscoveryTest, WithMulticastAStarNeedsNoAddress) {
   StartServer({});
   ExpectShared({"TRAILCAST_DISCOVERY=star"});
@@ -96,7 +86,7 @@ TEST_P(WithMulticast, NobodyNeedsAnAddress) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, WithMulticast,
-                         testing::Values("multicast.xml", "wifi.xml", "wired.xml"),
+                         testing::Values("multicast.xml", "wifi.xml", "wired.xml", "vpn.xml"),
                          [](const auto& file) {
                            const std::string name = file.param;
                            return name.substr(0, name.find('.'));

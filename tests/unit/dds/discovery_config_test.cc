@@ -42,7 +42,7 @@ TEST(DiscoveryConfig, AddressesAreWhereServersListen) {
   EXPECT_THAT(config,
               HasSubstr("<Peer Address=\"127.0.0.1:7660\"/><Peer Address=\"127.0.0.2:7660\"/>"));
   EXPECT_THAT(config, HasSubstr("<AllowMulticast>false<"));
-  EXPECT_THAT(config, Not(HasSubstr("239.255."))) << "which TCP knows nothing of";
+  EXPECT_THAT(config, Not(HasSubstr("239.255."))) << "where multicast does not get through";
 }
 
 TEST(DiscoveryConfig, ANameThatLeadsNowhereIsNamed) {
