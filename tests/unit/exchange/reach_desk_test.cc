@@ -14,16 +14,16 @@ using std::chrono::seconds;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-constexpr ReachDesk::Time kStart{std::chrono::hours(1)};
-const AgentId kDesk("desk");
-const AgentId kRobot("robot");
-const AgentId kServer("server");
+constexpr ReachDesk::Time kNoon{std::chrono::hours(1)};
+const AgentId kTheDesk("desk");
+const AgentId kTheRobot("robot");
+const AgentId kTheServer("server");
 
 AgentStatus Says(const AgentId& agent, AgentRole role, std::uint64_t instance = 1) {
   return {.agent = agent, .instance = instance, .role = role};
 }
 
-ReachRequest Question(std::uint64_t number) { return {.client = kDesk, .request = number}; }
+ReachRequest Question(std::uint64_t number) { return {.client = kTheDesk, .request = number}; }
 
 template <typename Kind>
 std::vector<Kind> Of(const std::vector<Message>& messages) {
@@ -35,15 +35,15 @@ std::vector<Kind> Of(const std::vector<Message>& messages) {
 }
 
 TEST(ReachDesk, KnowsSinceWhenAndFromWhereEachIsHeard) {
-  ReachDesk desk(kRobot, AgentRole::kFollower);
-  AgentStatus server = Says(kServer, AgentRole::kServer);
-  desk.Handle(server, kStart);
+  ReachDesk desk(kTheRobot, AgentRole::kFollower);
+  AgentStatus server = Says(kTheServer, AgentRole::kServer);
+  desk.Handle(server, kNoon);
   server.arrival = {.address = "10.0.0.2:7411", .network = "wlan0", .late = milliseconds(3)};
-  desk.Handle(server, kStart + seconds(2));
-  desk.Handle(Says(kRobot, AgentRole::kFollower, 9), kStart);  // a namesake
-  const auto heard = desk.Heard(kStart + seconds(3));
+  desk.Handle(server, kNoon + seconds(2));
+  desk.Handle(Says(kTheRobot, AgentRole::kFollower, 9), kNoon);  // a namesake
+  const auto heard = desk.Heard(kNoon + seconds(3));
   ASSERT_THAT(heard, SizeIs(1));
-  EXPECT_EQ(heard[0], (HeardAgent{.agent = kServer,
+  EXPECT_EQ(heard[0], (HeardAgent{.agent = kTheServer,
                                   .role = AgentRole::kServer,
                                   .heard_for = seconds(3),
                                   .age = seconds(1),
@@ -53,35 +53,35 @@ TEST(ReachDesk, KnowsSinceWhenAndFromWhereEachIsHeard) {
 }
 
 TEST(ReachDesk, ForgetsWhoIsGoneAndStartsAnewWithAnotherProcess) {
-  ReachDesk desk(kRobot, AgentRole::kFollower);
-  desk.Handle(Says(kServer, AgentRole::kServer, 1), kStart);
-  desk.Handle(Says(kServer, AgentRole::kServer, 2), kStart + seconds(5));
-  desk.Handle(AgentGone{kServer, 1}, kStart + seconds(6));
-  ASSERT_THAT(desk.Heard(kStart + seconds(6)), SizeIs(1));
-  EXPECT_EQ(desk.Heard(kStart + seconds(6))[0].heard_for, seconds(1));
-  desk.Handle(AgentGone{kServer, 2}, kStart + seconds(7));
-  EXPECT_THAT(desk.Heard(kStart + seconds(7)), IsEmpty());
+  ReachDesk desk(kTheRobot, AgentRole::kFollower);
+  desk.Handle(Says(kTheServer, AgentRole::kServer, 1), kNoon);
+  desk.Handle(Says(kTheServer, AgentRole::kServer, 2), kNoon + seconds(5));
+  desk.Handle(AgentGone{kTheServer, 1}, kNoon + seconds(6));
+  ASSERT_THAT(desk.Heard(kNoon + seconds(6)), SizeIs(1));
+  EXPECT_EQ(desk.Heard(kNoon + seconds(6))[0].heard_for, seconds(1));
+  desk.Handle(AgentGone{kTheServer, 2}, kNoon + seconds(7));
+  EXPECT_THAT(desk.Heard(kNoon + seconds(7)), IsEmpty());
 }
 
 TEST(ReachDesk, AnswersInPartsThatAreWithinBounds) {
-  ReachDesk desk(kServer, AgentRole::kServer);
+  ReachDesk desk(kTheServer, AgentRole::kServer);
   for (std::size_t i = 0; i < kMaxHeardAgents + 1; ++i) {
-    desk.Handle(Says(AgentId(fmt::format("robot{:04}", i)), AgentRole::kFollower), kStart);
+    desk.Handle(Says(AgentId(fmt::format("robot{:04}", i)), AgentRole::kFollower), kNoon);
   }
-  desk.Handle(Question(7), kStart);
+  desk.Handle(Question(7), kNoon);
   const auto reports = Of<ReachReport>(desk.TakeOutgoing());
   ASSERT_THAT(reports, SizeIs(2));
   EXPECT_THAT(reports[0].heard, SizeIs(kMaxHeardAgents));
   ASSERT_THAT(reports[1].heard, SizeIs(1));
   EXPECT_EQ(reports[1].before, kMaxHeardAgents);
-  EXPECT_EQ(reports[1].client, kDesk);
+  EXPECT_EQ(reports[1].client, kTheDesk);
   EXPECT_EQ(reports[1].request, 7U);
   for (const ReachReport& report : reports) EXPECT_TRUE(CheckBounds(report));
 }
 
 TEST(ReachDesk, OfNobodyTellsThatToo) {
-  ReachDesk desk(kRobot, AgentRole::kScout);
-  desk.Handle(Question(1), kStart);
+  ReachDesk desk(kTheRobot, AgentRole::kScout);
+  desk.Handle(Question(1), kNoon);
   const auto reports = Of<ReachReport>(desk.TakeOutgoing());
   ASSERT_THAT(reports, SizeIs(1));
   EXPECT_EQ(reports[0].role, AgentRole::kScout);
@@ -89,33 +89,33 @@ TEST(ReachDesk, OfNobodyTellsThatToo) {
 }
 
 TEST(ReachDesk, OfAServerPassesQuestionsOnOnceAndNotAllOfAFlood) {
-  ReachDesk desk(kServer, AgentRole::kServer);
-  desk.Handle(Question(1), kStart);
+  ReachDesk desk(kTheServer, AgentRole::kServer);
+  desk.Handle(Question(1), kNoon);
   const auto passed = Of<ReachRequest>(desk.TakeOutgoing());
   ASSERT_THAT(passed, SizeIs(1));
   EXPECT_TRUE(passed[0].relayed);
-  EXPECT_EQ(passed[0].server, kServer);
-  EXPECT_EQ(passed[0].client, kDesk);
+  EXPECT_EQ(passed[0].server, kTheServer);
+  EXPECT_EQ(passed[0].client, kTheDesk);
   EXPECT_TRUE(CheckBounds(passed[0]));
-  desk.Handle(Question(2), kStart + ReachDesk::kPassesOnEvery / 2);
+  desk.Handle(Question(2), kNoon + ReachDesk::kPassesOnEvery / 2);
   EXPECT_THAT(Of<ReachRequest>(desk.TakeOutgoing()), IsEmpty());
-  desk.Handle(Question(3), kStart + ReachDesk::kPassesOnEvery);
+  desk.Handle(Question(3), kNoon + ReachDesk::kPassesOnEvery);
   EXPECT_THAT(Of<ReachRequest>(desk.TakeOutgoing()), SizeIs(1));
 
   ReachDesk other(AgentId("other"), AgentRole::kServer);
-  other.Handle(passed[0], kStart);
+  other.Handle(passed[0], kNoon);
   const auto said = other.TakeOutgoing();
   EXPECT_THAT(Of<ReachRequest>(said), IsEmpty());
   ASSERT_THAT(Of<ReachReport>(said), SizeIs(1));
-  EXPECT_EQ(Of<ReachReport>(said)[0].server, kServer);
+  EXPECT_EQ(Of<ReachReport>(said)[0].server, kTheServer);
 }
 
 TEST(ReachDesk, OfARobotPassesNothingOnAndAnOperatorsDoesNotAnswer) {
-  ReachDesk robot(kRobot, AgentRole::kFollower);
-  robot.Handle(Question(1), kStart);
+  ReachDesk robot(kTheRobot, AgentRole::kFollower);
+  robot.Handle(Question(1), kNoon);
   EXPECT_THAT(Of<ReachRequest>(robot.TakeOutgoing()), IsEmpty());
   ReachDesk desk(AgentId("other-desk"), AgentRole::kOperator);
-  desk.Handle(Question(1), kStart);
+  desk.Handle(Question(1), kNoon);
   EXPECT_THAT(desk.TakeOutgoing(), IsEmpty());
 }
 
@@ -123,8 +123,8 @@ TEST(ReachDesk, OfARobotPassesNothingOnAndAnOperatorsDoesNotAnswer) {
 class RelayTest : public testing::Test {
  protected:
   RelayTest() {
-    server_.Handle(Says(kRobot, AgentRole::kFollower), kStart);
-    robot_.Handle(Says(kServer, AgentRole::kServer), kStart);
+    server_.Handle(Says(kTheRobot, AgentRole::kFollower), kNoon);
+    robot_.Handle(Says(kTheServer, AgentRole::kServer), kNoon);
   }
   // The robot answers after so long; what the server then passes on.
   std::vector<ReachReport> Ask(const ReachRequest& question, milliseconds after) {
@@ -140,20 +140,20 @@ class RelayTest : public testing::Test {
   }
   std::optional<double> RoundTrip_ms() { return server_.Heard(asked_at_)[0].round_trip_ms; }
 
-  ReachDesk::Time asked_at_ = kStart;
-  ReachDesk server_{kServer, AgentRole::kServer};
-  ReachDesk robot_{kRobot, AgentRole::kFollower};
+  ReachDesk::Time asked_at_ = kNoon;
+  ReachDesk server_{kTheServer, AgentRole::kServer};
+  ReachDesk robot_{kTheRobot, AgentRole::kFollower};
 };
 
 TEST_F(RelayTest, PassesAnswersOnOnce) {
   const auto passed = Ask(Question(1), milliseconds(5));
   ASSERT_THAT(passed, SizeIs(1));
   EXPECT_TRUE(passed[0].relayed);
-  EXPECT_EQ(passed[0].agent, kRobot);
-  EXPECT_EQ(passed[0].client, kDesk);
+  EXPECT_EQ(passed[0].agent, kTheRobot);
+  EXPECT_EQ(passed[0].client, kTheDesk);
   ASSERT_THAT(passed[0].heard, SizeIs(1));
-  EXPECT_EQ(passed[0].heard[0].agent, kServer);
-  server_.Handle(passed[0], kStart);
+  EXPECT_EQ(passed[0].heard[0].agent, kTheServer);
+  server_.Handle(passed[0], kNoon);
   EXPECT_THAT(server_.TakeOutgoing(), IsEmpty());
 }
 
@@ -169,7 +169,8 @@ TEST_F(RelayTest, MeasuresTheShortestWayThereAndBackForEachWhoAsks) {
 
 TEST_F(RelayTest, MeasuresByWhatItAskedItself) {
   (void)Ask(Question(1), milliseconds(7));
-  ReachReport answer{.agent = kRobot, .client = kDesk, .request = 1, .server = AgentId("other")};
+  ReachReport answer{
+      .agent = kTheRobot, .client = kTheDesk, .request = 1, .server = AgentId("other")};
   server_.Handle(answer, asked_at_ + milliseconds(1));
   answer.server = AgentId("");
   server_.Handle(answer, asked_at_ + milliseconds(1));
@@ -178,11 +179,11 @@ TEST_F(RelayTest, MeasuresByWhatItAskedItself) {
 }
 
 TEST(ReachDesk, RemembersNamesThatAreMadeUpUpToABound) {
-  ReachDesk desk(kServer, AgentRole::kServer);
+  ReachDesk desk(kTheServer, AgentRole::kServer);
   for (std::size_t i = 0; i < ReachDesk::kMostAgents + 10; ++i) {
-    desk.Handle(Says(AgentId(fmt::format("r{}", i)), AgentRole::kFollower), kStart);
+    desk.Handle(Says(AgentId(fmt::format("r{}", i)), AgentRole::kFollower), kNoon);
   }
-  EXPECT_THAT(desk.Heard(kStart), SizeIs(ReachDesk::kMostAgents));
+  EXPECT_THAT(desk.Heard(kNoon), SizeIs(ReachDesk::kMostAgents));
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ HeardAgent HeardServer(const std::string& name = "server") {
   return Heard(name, AgentRole::kServer);
 }
 
-ReachReport Report(const std::string& name, std::vector<HeardAgent> heard, bool star = true) {
+ReachReport AnswerOf(const std::string& name, std::vector<HeardAgent> heard, bool star = true) {
   return {.agent = AgentId(name),
           .client = kDesk,
           .request = 1,
@@ -44,8 +44,8 @@ ReachReport Report(const std::string& name, std::vector<HeardAgent> heard, bool 
           .star = star,
           .heard = std::move(heard)};
 }
-ReachReport ServersReport(std::vector<HeardAgent> heard, const std::string& name = "server") {
-  ReachReport report = Report(name, std::move(heard), false);
+ReachReport ServersAnswer(std::vector<HeardAgent> heard, const std::string& name = "server") {
+  ReachReport report = AnswerOf(name, std::move(heard), false);
   report.role = AgentRole::kServer;
   return report;
 }
@@ -63,9 +63,10 @@ class ReachSurveyTest : public testing::Test {
 TEST_F(ReachSurveyTest, AllIsWellInAStarWhereServerAndRobotsHearEachOther) {
   HeardAgent robot1 = Heard("robot1");
   robot1.round_trip_ms = 1.24;
-  const Reach reach = After({ServersReport({robot1, Heard("robot2")}),
-                             Report("robot1", {HeardServer()}), Report("robot2", {HeardServer()})},
-                            {AgentId("robot1")});
+  const Reach reach =
+      After({ServersAnswer({robot1, Heard("robot2")}), AnswerOf("robot1", {HeardServer()}),
+             AnswerOf("robot2", {HeardServer()})},
+            {AgentId("robot1")});
   EXPECT_TRUE(reach.complete());
   EXPECT_THAT(reach.troubles, IsEmpty());
   ASSERT_THAT(reach.members, SizeIs(3));
@@ -95,7 +96,7 @@ TEST_F(ReachSurveyTest, AllIsWellInAStarWhereServerAndRobotsHearEachOther) {
 }
 
 TEST_F(ReachSurveyTest, OneWayIsToldWithWhatToDo) {
-  const Reach reach = After({ServersReport({}), Report("robot1", {HeardServer()})});
+  const Reach reach = After({ServersAnswer({}), AnswerOf("robot1", {HeardServer()})});
   EXPECT_FALSE(reach.complete());
   ASSERT_THAT(reach.troubles, SizeIs(1));
   EXPECT_EQ(reach.troubles[0].member, AgentId("server"));
@@ -106,7 +107,7 @@ TEST_F(ReachSurveyTest, OneWayIsToldWithWhatToDo) {
 }
 
 TEST_F(ReachSurveyTest, WhoIsHeardAndDoesNotAnswerIsToldWithItsAddress) {
-  const Reach reach = After({ServersReport({Heard("robot1")})});
+  const Reach reach = After({ServersAnswer({Heard("robot1")})});
   ASSERT_THAT(reach.troubles, SizeIs(1));
   EXPECT_EQ(reach.troubles[0].what, "server hears robot1, which does not answer");
   EXPECT_THAT(reach.troubles[0].advice, HasSubstr("10.0.0.7:41830"));
@@ -115,7 +116,7 @@ TEST_F(ReachSurveyTest, WhoIsHeardAndDoesNotAnswerIsToldWithItsAddress) {
 }
 
 TEST_F(ReachSurveyTest, WhoIsExpectedAndNotHeardIsToldOnce) {
-  const Reach reach = After({ServersReport({})}, {AgentId("robot9"), AgentId("server")});
+  const Reach reach = After({ServersAnswer({})}, {AgentId("robot9"), AgentId("server")});
   ASSERT_THAT(reach.troubles, SizeIs(1));
   EXPECT_EQ(reach.troubles[0].what, "nobody hears robot9");
   EXPECT_THAT(reach.troubles[0].advice, HasSubstr("--server-address"));
@@ -123,29 +124,29 @@ TEST_F(ReachSurveyTest, WhoIsExpectedAndNotHeardIsToldOnce) {
 }
 
 TEST_F(ReachSurveyTest, MembersOfAMeshHaveToHearOneAnotherAndThoseOfAStarNot) {
-  EXPECT_TRUE(After({Report("a", {}, true), Report("b", {}, true)}).complete());
-  EXPECT_TRUE(After({Report("a", {}, true), Report("b", {}, false)}).complete());
+  EXPECT_TRUE(After({AnswerOf("a", {}, true), AnswerOf("b", {}, true)}).complete());
+  EXPECT_TRUE(After({AnswerOf("a", {}, true), AnswerOf("b", {}, false)}).complete());
   EXPECT_TRUE(
-      After({Report("a", {Heard("b")}, false), Report("b", {Heard("a")}, false)}).complete());
-  const Reach reach = After({Report("a", {Heard("b")}, false), Report("b", {}, false)});
+      After({AnswerOf("a", {Heard("b")}, false), AnswerOf("b", {Heard("a")}, false)}).complete());
+  const Reach reach = After({AnswerOf("a", {Heard("b")}, false), AnswerOf("b", {}, false)});
   ASSERT_THAT(reach.troubles, SizeIs(1));
   EXPECT_EQ(reach.troubles[0].what, "b does not hear a, which hears it");
 }
 
 TEST_F(ReachSurveyTest, ServersHaveToHearEachOther) {
-  const Reach reach = After({ServersReport({}, "one"), ServersReport({HeardServer("one")}, "two")});
+  const Reach reach = After({ServersAnswer({}, "one"), ServersAnswer({HeardServer("one")}, "two")});
   ASSERT_THAT(reach.troubles, SizeIs(1));
   EXPECT_EQ(reach.troubles[0].what, "one does not hear two, which hears it");
 }
 
 TEST_F(ReachSurveyTest, IsMeasuredOnceAddressesAreKnownAndTheWaysToServersAreTimed) {
-  EXPECT_FALSE(IsMeasured(After({ServersReport({Heard("a")}), Report("a", {HeardServer()})})));
+  EXPECT_FALSE(IsMeasured(After({ServersAnswer({Heard("a")}), AnswerOf("a", {HeardServer()})})));
   HeardAgent timed = Heard("a");
   timed.round_trip_ms = 1.0;
-  EXPECT_TRUE(IsMeasured(After({ServersReport({timed}), Report("a", {HeardServer()})})));
+  EXPECT_TRUE(IsMeasured(After({ServersAnswer({timed}), AnswerOf("a", {HeardServer()})})));
   timed.address.clear();
-  EXPECT_FALSE(IsMeasured(After({ServersReport({timed}), Report("a", {HeardServer()})})));
-  EXPECT_TRUE(IsMeasured(After({Report("a", {Heard("b")}), Report("b", {Heard("a")})})))
+  EXPECT_FALSE(IsMeasured(After({ServersAnswer({timed}), AnswerOf("a", {HeardServer()})})));
+  EXPECT_TRUE(IsMeasured(After({AnswerOf("a", {Heard("b")}), AnswerOf("b", {Heard("a")})})))
       << "without a server nobody times it";
 }
 
@@ -165,7 +166,7 @@ TEST_F(ReachSurveyTest, HearsForItselfAndMeasures) {
   const exchange::ReachRequest asked = survey.Ask(kStart);
   EXPECT_EQ(asked.client, kDesk);
   EXPECT_FALSE(asked.relayed);
-  survey.Hear(Report("robot1", {}), kStart + milliseconds(8));
+  survey.Hear(AnswerOf("robot1", {}), kStart + milliseconds(8));
   const Reach reach = survey.Result(kStart + seconds(1));
   ASSERT_THAT(reach.hearings, SizeIs(1));
   EXPECT_EQ(reach.hearings[0].by, kDesk);
@@ -176,15 +177,15 @@ TEST_F(ReachSurveyTest, NewerAnswersReplaceOlderOnesAndThoseForOthersDoNotCount)
   ReachSurvey survey(kDesk, {});
   (void)survey.Ask(kStart);
   (void)survey.Ask(kStart);
-  ReachReport first = ServersReport({Heard("a"), Heard("b")});
-  ReachReport second = ServersReport({Heard("c")});
+  ReachReport first = ServersAnswer({Heard("a"), Heard("b")});
+  ReachReport second = ServersAnswer({Heard("c")});
   second.request = 2;
-  ReachReport more = ServersReport({Heard("d")});
+  ReachReport more = ServersAnswer({Heard("d")});
   more.request = 2;
   more.before = 1;
-  ReachReport others = ServersReport({Heard("e")});
+  ReachReport others = ServersAnswer({Heard("e")});
   others.client = AgentId("other-desk");
-  ReachReport never_asked = ServersReport({Heard("f")});
+  ReachReport never_asked = ServersAnswer({Heard("f")});
   never_asked.request = 3;
   for (const ReachReport& report : {first, second, more, first, others, never_asked}) {
     survey.Hear(report, kStart);
