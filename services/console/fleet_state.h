@@ -37,6 +37,8 @@ class FleetState {
   // A route that nobody tells of is asked for so often, so many at once.
   static constexpr std::chrono::milliseconds kAskForRouteEvery{10'000};
   static constexpr std::size_t kMostAskedFor = 8;
+  // A stop that was not answered is told again so often.
+  static constexpr std::chrono::milliseconds kStopAgainEvery{500};
 
   // `self` asks for routes and missions: replies to it are taken.
   explicit FleetState(AgentId self) : self_(std::move(self)) {}
@@ -47,6 +49,20 @@ class FleetState {
   // Who has fallen silent meanwhile, and which routes robots are on.
   void Tick(Time now);
   [[nodiscard]] bool Teaches(const AgentId& robot) const;
+  struct Known {
+    AgentId robot{};
+    std::string last_seen{};  // as fleet::LastSeenText
+  };
+  // Those that operators' orders reach and that have not ended, heard or not: they may be moving.
+  [[nodiscard]] std::vector<Known> MayMove(Time now) const;
+  // A robot that has not answered a stop is told it again until it has, or stands by another's, or
+  // has ended, or is released here. Of one that was never heard nothing is kept.
+  // `told_at`: when that began; a release since then is the later word.
+  void KeepTelling(const AgentId& robot, const exchange::NowCommand& stop, Time told_at,
+                   std::int64_t unix_ms);
+  void Release(const AgentId& robot, Time now);
+  // What is to be said now of it.
+  [[nodiscard]] std::vector<exchange::NowCommand> TakeOpenStops(Time now);
   // Servers were asked for the last missions: that there are none is known from their answer.
   void AskedForMissions(std::uint64_t request) { asked_for_missions_ = request; }
   // No server has answered that yet, or a robot tells of a mission whose orders are not known here.
@@ -66,8 +82,16 @@ class FleetState {
     std::string route{};
     exchange::PlaceOnRoute place{};
   };
+  // That a robot did not answer.
+  struct OpenStop {
+    exchange::NowCommand command{};
+    std::int64_t since_unix_ms = 0;
+    Time say_at{};
+  };
   struct Agent {
     exchange::AgentStatus status{};
+    std::optional<OpenStop> open_stop{};
+    std::optional<Time> released_at{};
     std::optional<Stood> stood{};
     Time heard_at{};
     std::int64_t heard_unix_ms = 0;
@@ -88,6 +112,8 @@ class FleetState {
   using MissionName = std::pair<AgentId, std::string>;
   using Latest = std::map<AgentId, const mission::Record*>;
 
+  void On(const exchange::AgentStatus& status, Time now, std::int64_t unix_ms);
+  void On(const exchange::NowAnswer& answer);
   void On(const mission::Report& report, std::int64_t unix_ms);
   void On(const exchange::MissionReply& reply);
   void On(const exchange::CatalogReply& reply);

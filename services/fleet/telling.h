@@ -19,6 +19,13 @@ class Telling {
 
   [[nodiscard]] const std::vector<exchange::NowCommand>& commands() const { return commands_; }
   void Hear(const exchange::Message& message);
+  // A robot that this is meant for is waited for and named, heard or not: `last_known` says in a
+  // line what was last known of it.
+  void Expect(const std::string& robot, const std::string& last_known);
+  // The same of one that a server has on a mission, if it is meant.
+  void Expect(const mission::Record& record);
+  // All are named; else, of a route or of all, it has to be found out who there is.
+  [[nodiscard]] bool only_named() const;
   // Of a route or of all it takes a while to hear who is there.
   [[nodiscard]] bool AllAnswered(std::chrono::milliseconds since) const;
   // By name. Empty where nobody was heard that is meant.

@@ -46,6 +46,7 @@ export type Robot = {
   teaches: boolean;
   features: number;
   mission: Mission | null;
+  unanswered_stop_unix_ms: number | null;  // since when it is told to stop and does not answer
   orders: Order[];
 };
 
@@ -170,16 +171,16 @@ export async function drive(
   }
 }
 
-export async function stopAll(): Promise<Answer> {
+// With what it says of each robot, which may change.
+export type StopAnswer = Answer & { robots: { robot: string; answered: boolean; obeys: boolean }[] };
+
+export async function stopAll(): Promise<StopAnswer> {
   try {
-    const { json } = await post('/api/all/stop', {});
-    if (json.error) return { ok: false, text: json.error };
-    const disobey = json.robots.filter((each: any) => !each.obeys);
-    if (disobey.length === 0) return { ok: true, text: `All ${json.robots.length} robots stand.` };
-    const why = (each: any) => `${each.robot}: ${each.answered ? each.detail : 'did not answer'}`;
-    return { ok: false, text: disobey.map(why).join('; ') };
+    const { status, json } = await post('/api/all/stop', {});
+    if (json.error) return { ok: false, text: json.error, robots: [] };
+    return { ok: status === 200, text: json.text, robots: json.robots };
   } catch {
-    return unreachable;
+    return { ...unreachable, robots: [] };
   }
 }
 

@@ -1,6 +1,6 @@
 import { useEffect, useState } from 'react';
 import { createRoot } from 'react-dom/client';
-import { stopAll, type Answer, type Fleet, type Robot } from './api';
+import { stopAll, type Fleet, type Robot, type StopAnswer } from './api';
 import { remember } from './doubts';
 import { age, useFleet } from './fleet';
 import { History } from './runs/history';
@@ -56,28 +56,76 @@ function Robots({ fleet, settled, now_ms }: { fleet: Fleet | null; settled: bool
   );
 }
 
+// Who was told to stop and has not answered stays in view until it has.
+function NotStopped({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
+  const open = robots.filter((robot) => robot.unanswered_stop_unix_ms !== null);
+  if (open.length === 0) return null;
+  const seen = (robot: Robot) => {
+    const doing = robot.speed_mps !== 0 ? `, moving at ${Math.abs(robot.speed_mps).toFixed(2)} m/s` : '';
+    return robot.last_heard_unix_ms === null ? `heard${doing}`
+      : `last seen ${age(now_ms - robot.last_heard_unix_ms)} ago${doing}`;
+  };
+  return (
+    <p className="banner" role="alert">
+      ⚠ Not stopped:{' '}
+      {open.map((robot, i) => (
+        <span key={robot.name}>
+          {i > 0 && '; '}<a href={`#robot-${robot.name}`}>{robot.name}</a> ({seen(robot)})
+        </span>
+      ))}
+      . It does not answer and may be moving: use its red button. Stop is sent to it again and again, until it answers or you
+      release it.
+    </p>
+  );
+}
+
+// Robots take so long to show what they have answered.
+const kShown_ms = 2000;
+
+// What was answered, for as long as the robots are so.
+function useStopAnswer(robots: Robot[], now_ms: number) {
+  const [answer, setAnswer] = useState<StopAnswer | null>(null);
+  const [at_ms, setAt] = useState(0);
+  useEffect(() => {
+    if (!answer || answer.robots.length === 0 || Date.now() < at_ms + kShown_ms) return;
+    const holds = answer.robots.every(({ robot, answered, obeys }) => {
+      const is = robots.find((each) => each.name === robot);
+      return answered ? !obeys || is?.state === 'stopped' : is?.unanswered_stop_unix_ms != null;
+    });
+    if (!holds) setAnswer(null);
+  }, [answer, at_ms, robots, now_ms]);
+  const say = (said: StopAnswer) => {
+    setAnswer(said);
+    setAt(Date.now());
+  };
+  return { answer, say };
+}
+
 // Of the time that lists tell.
 const kStep_ms = 10000;
 
 function Page() {
   const { fleet, settled, lost, now_ms, heard_ms } = useFleet();
-  const [answer, setAnswer] = useState<Answer | null>(null);
+  const { answer, say } = useStopAnswer(fleet?.robots ?? [], now_ms);
   const { page, open } = usePage();
   const mayOperate = useMay('operate');
   useEffect(() => remember(fleet?.robots ?? []), [fleet]);
   const servers = fleet?.servers ?? [];
   const stop = async () => {
-    setAnswer({ ok: true, text: 'Stop: told to all …' });
-    setAnswer(await stopAll());
+    say({ ok: true, text: 'Sending Stop to all robots …', robots: [] });
+    say(await stopAll());
   };
   return (
     <>
-      <header className="top">
-        <h1>Trailcast</h1>
-        <Pages page={page} />
-        <WhoIsIn />
-        {mayOperate && <button className="stop all" onClick={stop} aria-describedby="stop-help">Stop all</button>}
-      </header>
+      <div className="pinned">
+        <header className="top">
+          <h1>Trailcast</h1>
+          <Pages page={page} />
+          <WhoIsIn />
+          {mayOperate && <button className="stop all" onClick={stop} aria-describedby="stop-help">Stop all</button>}
+        </header>
+        <NotStopped robots={fleet?.robots ?? []} now_ms={now_ms} />
+      </div>
       <p className={answer && !answer.ok ? 'answer top-answer bad' : 'answer top-answer'} role="status">
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>

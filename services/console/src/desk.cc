@@ -34,14 +34,29 @@ class TellErrand final : public ErrandFor<std::vector<fleet::RobotsWord>> {
  public:
   TellErrand(const AgentId& self, exchange::NowOrder order, const fleet::NowTarget& target,
              const std::string& reason, milliseconds timeout)
-      : telling_(self, order, {target}, reason), timeout_(timeout) {}
+      : telling_(self, order, {target}, reason), target_(target), timeout_(timeout) {}
 
   [[nodiscard]] std::vector<exchange::Message> Words() const override {
     return {telling_.commands().begin(), telling_.commands().end()};
   }
   void Hear(const exchange::Message& message) override { telling_.Hear(message); }
+  void Begin(FleetState& state, std::chrono::steady_clock::time_point now) override {
+    for (const auto& [robot, last_seen] : state.MayMove(now)) {
+      if (target_.whom == exchange::NowWhom::kAll || target_.name == robot.value()) {
+        telling_.Expect(robot.value(), last_seen);
+      }
+    }
+    if (order() == exchange::NowOrder::kRelease) state.Release(AgentId(target_.name), now);
+  }
   [[nodiscard]] bool IsOver(milliseconds since) const override {
     return since > timeout_ || telling_.AllAnswered(since);
+  }
+  void End(FleetState& state) override {
+    if (order() != exchange::NowOrder::kStop) return;
+    for (const fleet::RobotsWord& word : telling_.Words()) {
+      if (word.answered) continue;
+      state.KeepTelling(AgentId(word.robot), telling_.commands().front(), began, NowUnixMs());
+    }
   }
 
  private:
@@ -50,8 +65,10 @@ class TellErrand final : public ErrandFor<std::vector<fleet::RobotsWord>> {
     if (words.empty()) return Fail(ErrorCode::kNotFound, "no robot is heard");
     return words;
   }
+  [[nodiscard]] exchange::NowOrder order() const { return telling_.commands().front().order; }
 
   fleet::Telling telling_;
+  fleet::NowTarget target_;
   milliseconds timeout_;
 };
 
@@ -351,8 +368,12 @@ void Desk::Begin() {
     others.swap(others_);
   }
   const auto now = Clock::now();
-  for (const auto& errand : stops) errand->began = now;
-  for (const auto& errand : others) errand->began = now;
+  for (const auto* asked : {&stops, &others}) {
+    for (const auto& errand : *asked) {
+      errand->began = now;
+      errand->Begin(state_, now);
+    }
+  }
   errands_.insert(errands_.begin(), stops.begin(), stops.end());
   errands_.insert(errands_.end(), others.begin(), others.end());
 }
@@ -361,6 +382,9 @@ void Desk::Say(Clock::time_point now) {
   for (const exchange::DriveCommand& command : driving_.Take(self_)) {
     // What is lost is said anew, by whoever drives.
     if (state_.Teaches(command.agent)) (void)exchange_->Publish(command);
+  }
+  for (const exchange::NowCommand& stop : state_.TakeOpenStops(now)) {
+    (void)exchange_->Publish(stop);  // said again until it is answered
   }
   for (const auto& errand : errands_) {
     if (now < errand->say_at) continue;
@@ -382,6 +406,7 @@ void Desk::Say(Clock::time_point now) {
     const std::scoped_lock lock(mutex_);
     for (const auto& errand : done) under_way_ -= errand->counts ? 1 : 0;
   }
+  for (const auto& errand : done) errand->End(state_);
   // Who has its answer has room for the next question.
   for (const auto& errand : done) errand->Finish();
 }

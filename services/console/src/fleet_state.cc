@@ -9,6 +9,7 @@
 #include "services/console/src/robot_state.h"
 #include "services/fleet/following_words.h"
 #include "services/fleet/mission_client.h"
+#include "services/fleet/now_client.h"
 #include "services/fleet/routes/catalog_client.h"
 #include "services/mission/mission.h"
 #include "services/program/json.h"
@@ -23,10 +24,10 @@ using program::Json;
 using program::Rounded;
 
 // What an operator's word would change.
-Json OrdersFor(RobotState state, const AgentStatus& status, bool has_mission) {
+Json OrdersFor(RobotState state, const AgentStatus& status, bool has_mission, bool open_stop) {
   Json orders = Json::array();
   if (status.role != AgentRole::kFollower) return orders;
-  if (state == RobotState::kStopped) {
+  if (state == RobotState::kStopped || open_stop) {
     orders.push_back("release");
   } else if (state == RobotState::kPaused) {
     orders.push_back("resume");
@@ -60,11 +61,9 @@ std::map<std::string_view, const Json*> ByName(const Json& robots) {
 
 void FleetState::Handle(const exchange::Message& message, Time now, std::int64_t unix_ms) {
   if (const auto* status = std::get_if<AgentStatus>(&message)) {
-    Agent& agent = agents_.Touch(status->agent);
-    auto stood = status->place ? std::optional(Stood{status->route, *status->place})
-                               : std::move(agent.stood);
-    agent = {
-        .status = *status, .stood = std::move(stood), .heard_at = now, .heard_unix_ms = unix_ms};
+    On(*status, now, unix_ms);
+  } else if (const auto* answer = std::get_if<exchange::NowAnswer>(&message)) {
+    On(*answer);
   } else if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
     Agent* agent = agents_.Find(gone->agent);
     if (agent != nullptr && agent->status.instance == gone->instance) agent->gone = true;
@@ -75,6 +74,69 @@ void FleetState::Handle(const exchange::Message& message, Time now, std::int64_t
   } else if (const auto* routes = std::get_if<exchange::CatalogReply>(&message)) {
     if (routes->client == self_) On(*routes);
   }
+}
+
+void FleetState::On(const AgentStatus& status, Time now, std::int64_t unix_ms) {
+  Agent& agent = agents_.Touch(status.agent);
+  auto stood =
+      status.place ? std::optional(Stood{status.route, *status.place}) : std::move(agent.stood);
+  const bool stands =
+      status.mode == AgentMode::kStopped ||
+      (status.hold == exchange::AgentHold::kStopped && status.mode != AgentMode::kReplaying);
+  auto open_stop = stands ? std::nullopt : std::move(agent.open_stop);
+  agent = {.status = status,
+           .open_stop = std::move(open_stop),
+           .released_at = agent.released_at,
+           .stood = std::move(stood),
+           .heard_at = now,
+           .heard_unix_ms = unix_ms};
+}
+
+void FleetState::On(const exchange::NowAnswer& answer) {
+  Agent* agent = agents_.Find(answer.agent);
+  if (agent == nullptr || !agent->open_stop) return;
+  const exchange::NowCommand& stop = agent->open_stop->command;
+  if (answer.client == stop.client && answer.number == stop.number) agent->open_stop.reset();
+}
+
+std::vector<FleetState::Known> FleetState::MayMove(Time now) const {
+  std::vector<Known> known;
+  for (const auto& [name, agent] : agents_) {
+    const bool obeys = agent.status.role == AgentRole::kFollower;
+    if (!obeys || agent.status.mode == AgentMode::kStopped) continue;
+    const auto ago = std::chrono::duration_cast<std::chrono::milliseconds>(now - agent.heard_at);
+    known.push_back({name, fleet::LastSeenText(agent.status, ago)});
+  }
+  return known;
+}
+
+void FleetState::KeepTelling(const AgentId& robot, const exchange::NowCommand& stop, Time told_at,
+                             std::int64_t unix_ms) {
+  Agent* agent = agents_.Find(robot);
+  if (agent == nullptr || agent->status.mode == AgentMode::kStopped) return;
+  if (agent->released_at && *agent->released_at >= told_at) return;
+  const std::int64_t since = agent->open_stop ? agent->open_stop->since_unix_ms : unix_ms;
+  agent->open_stop = {.command = stop, .since_unix_ms = since};
+  // Others have answered what they were all told.
+  agent->open_stop->command.whom = mission::NowWhom::kRobot;
+  agent->open_stop->command.name = robot.value();
+}
+
+void FleetState::Release(const AgentId& robot, Time now) {
+  Agent* agent = agents_.Find(robot);
+  if (agent == nullptr) return;
+  agent->open_stop.reset();
+  agent->released_at = now;
+}
+
+std::vector<exchange::NowCommand> FleetState::TakeOpenStops(Time now) {
+  std::vector<exchange::NowCommand> stops;
+  for (auto& [name, agent] : agents_) {
+    if (!agent.open_stop || now < agent.open_stop->say_at) continue;
+    agent.open_stop->say_at = now + kStopAgainEvery;
+    stops.push_back(agent.open_stop->command);
+  }
+  return stops;
 }
 
 void FleetState::On(const mission::Report& report, std::int64_t unix_ms) {
@@ -180,7 +242,8 @@ FleetState::Standing FleetState::StandingOf(const Agent& agent, const mission::R
   const bool ended = agent.status.mode == AgentMode::kStopped;
   standing.state = RobotStateOf(agent.status, agent.silent && !ended, on_mission);
   const bool failed = latest != nullptr && latest->last.state == mission::State::kFailed;
-  standing.needs_person = failed || standing.state == RobotState::kFault ||
+  standing.needs_person = failed || agent.open_stop.has_value() ||
+                          standing.state == RobotState::kFault ||
                           (standing.state == RobotState::kSilent && on_mission);
   return standing;
 }
@@ -214,8 +277,10 @@ Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest) cons
              {"follows_by", fleet::FollowingText(status)},
              {"teaches", status.mode == AgentMode::kTeaching},
              {"features", status.features},
+             {"unanswered_stop_unix_ms",
+              agent.open_stop ? Json(agent.open_stop->since_unix_ms) : Json(nullptr)},
              {"orders", OrdersFor(RobotStateOf(status, false, mission != nullptr), status,
-                                  mission != nullptr)}};
+                                  mission != nullptr, agent.open_stop.has_value())}};
   if (status.place) {
     robot["route_id"] = status.place->key.route.value();
     robot["teaching"] = fmt::format("{:x}", status.place->key.teaching.value());

@@ -57,7 +57,8 @@ TopicUse OperatorTopics() {
 }
 
 TopicUse DispatcherTopics() {
-  return {.write = {Topic::kNow}, .read = {Topic::kNowAnswers, Topic::kAgents}};
+  return {.write = {Topic::kNow, Topic::kMissionRequests},
+          .read = {Topic::kNowAnswers, Topic::kMissionReplies, Topic::kAgents}};
 }
 
 TopicUse ReplayTopics() {

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "services/base/time.h"
+#include "services/base/unix_time.h"
+#include "services/fleet/draw.h"
 #include "services/fleet/telling.h"
 #include "services/program/json.h"
 
@@ -16,6 +20,42 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kNowAgain{100};
 constexpr milliseconds kNowWait{20};
+constexpr milliseconds kAskServersAgain{500};
+// Of those that are sent somewhere, the newest.
+constexpr std::uint32_t kMissionsAsked = 100;
+
+// Which robots are on their way: whoever has just joined does not hear those that are silent.
+class WhoIsOnAMission {
+ public:
+  WhoIsOnAMission(const AgentId& self, bool asks) : asks_(asks) {
+    request_.client = self;
+    request_.request = DrawNumber();
+    request_.query.page_size = kMissionsAsked;
+    for (std::uint8_t i = 0; i < mission::kStates; ++i) {
+      const bool has_ended = mission::HasEnded(static_cast<mission::State>(i));
+      request_.query.states |= has_ended ? 0U : 1U << i;
+    }
+  }
+
+  void Ask(exchange::RouteExchange& exchange, steady_clock::time_point now) {
+    if (!asks_ || now < ask_at_) return;
+    ask_at_ = now + kAskServersAgain;
+    (void)exchange.Publish(request_);  // asked again until it is answered
+  }
+  void Hear(const exchange::Message& message, Telling& telling) {
+    const auto* reply = std::get_if<exchange::MissionReply>(&message);
+    if (reply == nullptr || reply->client != request_.client) return;
+    if (reply->request != request_.request) return;
+    asks_ = false;
+    for (const mission::Record& record : reply->missions) telling.Expect(record);
+  }
+
+ private:
+  bool asks_;
+  exchange::MissionRequest request_;
+  steady_clock::time_point ask_at_{};
+};
+
 }  // namespace
 
 Result<std::vector<RobotsWord>> TellRobots(exchange::RouteExchange& exchange, const AgentId& self,
@@ -23,6 +63,7 @@ Result<std::vector<RobotsWord>> TellRobots(exchange::RouteExchange& exchange, co
                                            const std::vector<NowTarget>& targets,
                                            const std::string& reason, milliseconds timeout) {
   Telling telling(self, order, targets, reason);
+  WhoIsOnAMission on_mission(self, !telling.only_named());
   const auto began = steady_clock::now();
   auto say_at = began;
   while (true) {
@@ -38,7 +79,11 @@ Result<std::vector<RobotsWord>> TellRobots(exchange::RouteExchange& exchange, co
         }
       }
     }
-    for (const exchange::Message& message : exchange.Take(kNowWait)) telling.Hear(message);
+    on_mission.Ask(exchange, now);
+    for (const exchange::Message& message : exchange.Take(kNowWait)) {
+      telling.Hear(message);
+      on_mission.Hear(message, telling);
+    }
   }
   auto words = telling.Words();
   if (!words.empty()) return words;
@@ -50,14 +95,49 @@ Result<std::vector<RobotsWord>> TellRobots(exchange::RouteExchange& exchange, co
       Seconds(steady_clock::now() - began));
 }
 
+Obeyed ObeyedBy(const std::vector<RobotsWord>& words) {
+  const auto any = [&](auto is) { return std::any_of(words.begin(), words.end(), is); };
+  if (any([](const RobotsWord& word) { return !word.answered; })) return Obeyed::kUnanswered;
+  if (any([](const RobotsWord& word) { return word.refused; })) return Obeyed::kNotByAll;
+  return Obeyed::kByAll;
+}
+
+std::string LastSeenText(const exchange::AgentStatus& status, std::optional<milliseconds> ago) {
+  const bool drives = status.mode == exchange::AgentMode::kReplaying ||
+                      status.mode == exchange::AgentMode::kTeaching;
+  const std::string doing = status.speed_mps != 0.0
+                                ? fmt::format("moving at {:.2f} m/s", std::abs(status.speed_mps))
+                            : drives ? "driving"
+                                     : "standing";
+  if (!ago) return "last seen " + doing;
+  return fmt::format("last seen {} ago, {}", Age(ago->count()), doing);
+}
+
+std::string StandText(const std::vector<RobotsWord>& words) {
+  std::size_t stand = 0;
+  std::string others;
+  for (const RobotsWord& word : words) {
+    if (word.answered && !word.refused) {
+      ++stand;
+      continue;
+    }
+    others += fmt::format("{}{} {}{}", others.empty() ? "" : "; ", word.robot,
+                          word.answered ? "does not obey: " : "did not answer and may be moving",
+                          word.answered         ? word.detail
+                          : word.detail.empty() ? ""
+                                                : " (" + word.detail + ")");
+  }
+  if (others.empty() && stand == 1) return words.front().robot + " stands.";
+  if (others.empty()) return fmt::format("All {} robots stand.", stand);
+  return fmt::format("{} of {} robots stand. {}.", stand, words.size(), others);
+}
+
 std::string WordsText(const std::vector<RobotsWord>& words) {
   std::string text;
   for (const RobotsWord& word : words) {
-    text += fmt::format("{}: {}{}\n", word.robot,
-                        !word.answered ? "did not answer"
-                        : word.refused ? "does not obey: "
-                                       : "",
-                        word.answered ? word.detail : "");
+    const char* says = word.refused ? "does not obey: " : "";
+    if (!word.answered) says = word.detail.empty() ? "did not answer" : "did not answer: ";
+    text += fmt::format("{}: {}{}\n", word.robot, says, word.detail);
   }
   return text;
 }

@@ -1,9 +1,13 @@
 #include "services/fleet/telling.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "services/fleet/draw.h"
+#include "services/mission/orders.h"
 
 namespace trailcast::fleet {
 namespace {
@@ -36,22 +40,43 @@ void Telling::Hear(const exchange::Message& message) {
     words_[answer->agent.value()] = {answer->agent.value(), true, answer->refused, answer->detail};
   } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     const bool ended = status->mode == exchange::AgentMode::kStopped;
-    if (status->role == exchange::AgentRole::kFollower && !ended && IsMeant(*status)) {
-      words_[status->agent.value()].robot = status->agent.value();
-    }
-  } else if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
-    const auto known = words_.find(gone->agent.value());
-    if (known != words_.end() && !known->second.answered && !IsNamed(known->first)) {
+    const std::string& robot = status->agent.value();
+    const auto known = words_.find(robot);
+    // Who has ended stands. Who is only heard no more, as when it was killed, may not.
+    if (ended && known != words_.end() && !known->second.answered && !IsNamed(robot)) {
       words_.erase(known);
+    } else if (status->role == exchange::AgentRole::kFollower && !ended && IsMeant(*status)) {
+      Expect(robot, LastSeenText(*status, std::nullopt));
     }
   }
 }
 
-bool Telling::AllAnswered(milliseconds since) const {
-  const bool only_named = std::all_of(targets_.begin(), targets_.end(), [](const NowTarget& each) {
-    return each.whom == NowWhom::kRobot;
+void Telling::Expect(const std::string& robot, const std::string& last_known) {
+  RobotsWord& word = words_[robot];
+  word.robot = robot;
+  if (!word.answered) word.detail = last_known;
+}
+
+void Telling::Expect(const mission::Record& record) {
+  const std::string& robot = record.mission.agent.value();
+  if (words_.contains(robot)) return;  // it is heard, which says more
+  const auto routes = mission::RoutesIn(record.mission.orders);
+  const bool is_meant = std::any_of(targets_.begin(), targets_.end(), [&](const NowTarget& each) {
+    return each.whom == NowWhom::kAll ||
+           (each.whom == NowWhom::kOnRoute && routes.contains(each.name));
   });
-  if (!only_named && since < kAllAreHeard) return false;
+  if (!is_meant || record.last.change == 0) return;  // it has not taken the mission
+  Expect(robot, fmt::format("last known on its mission '{}', {}", record.mission.orders,
+                            mission::ToString(record.last.state)));
+}
+
+bool Telling::only_named() const {
+  return std::all_of(targets_.begin(), targets_.end(),
+                     [](const NowTarget& each) { return each.whom == NowWhom::kRobot; });
+}
+
+bool Telling::AllAnswered(milliseconds since) const {
+  if (!only_named() && since < kAllAreHeard) return false;
   return std::all_of(words_.begin(), words_.end(),
                      [](const auto& each) { return each.second.answered; });
 }

@@ -1,5 +1,6 @@
 // `trailcast pause`, `resume`, `cancel`, `stop`, `release` and `end`.
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <memory>
 
@@ -33,6 +34,7 @@ constexpr const char* kNowExamples =
     "Robots that follow with --server obey, at once, and their wheels stand with the next "
     "picture.\n"
     "This is no emergency stop, and no safety-rated one: a robot that is out of reach drives on.\n"
+    "Robots that a server has on a mission are named, too, where they are out of reach.\n"
     "Exit status: 0 all obey; 1 somebody does not, or did not answer; 2 wrong usage.";
 
 std::vector<fleet::NowTarget> TargetsOf(const NowOptions& options) {
@@ -53,10 +55,14 @@ int Run(const CLI::App& app, const program::CommonOptions& common, NowOrder orde
   std::fputs((options.json ? program::Indented(fleet::WordsJson(*words)) : fleet::WordsText(*words))
                  .c_str(),
              stdout);
-  const bool all_obey =
-      std::all_of(words->begin(), words->end(),
-                  [](const fleet::RobotsWord& word) { return word.answered && !word.refused; });
-  return all_obey ? program::kExitOk : program::kExitFailure;
+  const fleet::Obeyed obeyed = fleet::ObeyedBy(*words);
+  if (order == NowOrder::kStop && obeyed == fleet::Obeyed::kUnanswered) {
+    fmt::print(
+        stderr,
+        "{} Use the red button on the robot; '--timeout 600' tells it again for ten minutes.\n",
+        fleet::StandText(*words));
+  }
+  return obeyed == fleet::Obeyed::kByAll ? program::kExitOk : program::kExitFailure;
 }
 
 Command AddOne(CLI::App& parent, const program::CommonOptions& common, NowOrder order,

@@ -169,8 +169,28 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   browser.Look(1280, 800);
   browser.Screenshot(Shot("desktop"));
 
+  EXPECT_EQ(Post("/api/robots/robot1/release").status, 200);
+  EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
+  ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
+  ASSERT_TRUE(browser.Click("//button[. = 'Stop all']"));
+  ASSERT_TRUE(browser.WaitForText("robot1 stands.")) << browser.Text();
+  EXPECT_EQ(Post("/api/robots/robot1/release").status, 200);
+  EXPECT_TRUE(WaitUntil([&] { return browser.Text().find("robot1 stands.") == std::string::npos; }))
+      << "what is so no longer is not said";
+  EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
+  ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
+
   agent_->Signal(SIGKILL);
   ASSERT_TRUE(browser.WaitForText("Silent")) << browser.Text();
+  const Replied silent = Post("/api/all/stop");
+  EXPECT_EQ(silent.status, 504) << silent.body;
+  EXPECT_THAT(silent.body["text"].get<std::string>(),
+              AllOf(HasSubstr("0 of 1 robots stand"), HasSubstr("m/s")))
+      << silent.body;
+  ASSERT_TRUE(browser.WaitForText("Not stopped: robot1")) << browser.Text();
+  const Ended stop_all = End(*Start("trailcast", {"stop", "--all", "--timeout", "2"}, "stop-all"));
+  EXPECT_EQ(stop_all.status, 1) << stop_all.output;
+  EXPECT_THAT(stop_all.output, HasSubstr("robot1: did not answer: last known on its mission"));
   EXPECT_THAT(browser.Text(), AllOf(HasSubstr("Last heard"), HasSubstr("Needs a person")));
   browser.Look(1280, 800, true);
   browser.Screenshot(Shot("desktop-silent"));

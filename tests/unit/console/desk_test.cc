@@ -118,6 +118,40 @@ TEST_F(DeskTest, WhoDoesNotAnswerIsNamed) {
   EXPECT_FALSE(hasty_.Missions({}));
 }
 
+TEST_F(DeskTest, AStopToAllNamesWhoIsSilentAndIsSaidUntilItAnswers) {
+  exchange::AgentStatus status;
+  status.agent = AgentId("robot1");
+  status.role = exchange::AgentRole::kFollower;
+  status.mode = exchange::AgentMode::kReplaying;
+  status.speed_mps = 0.4;
+  ASSERT_TRUE(robot_->Publish(status));
+  const auto robot_shown = [&] {
+    const auto news = hasty_.See(0, test::kLongEnough);
+    if (!news) return nlohmann::ordered_json();
+    const auto& robots = (*news->state)["robots"];
+    return robots.empty() ? nlohmann::ordered_json() : robots[0];
+  };
+  test::Await([&] { return robot_shown().is_object(); }, "the robot");
+
+  const auto told = hasty_.Tell(NowOrder::kStop, {NowWhom::kAll, ""}, "rain");
+  ASSERT_TRUE(told) << told.error().message;
+  ASSERT_EQ(told->size(), 1U);
+  EXPECT_FALSE(told->front().answered);
+  EXPECT_THAT(told->front().detail, HasSubstr("moving at 0.40 m/s"));
+  test::Await([&] { return robot_shown()["unanswered_stop_unix_ms"].is_number(); },
+              "that it is not stopped");
+
+  const auto before = Heard<exchange::NowCommand>();  // what it was told meanwhile
+  const auto again = Heard<exchange::NowCommand>();
+  EXPECT_EQ(again.number, before.number);
+  EXPECT_EQ(again.order, NowOrder::kStop);
+  EXPECT_EQ(again.name, "robot1");
+  ASSERT_TRUE(robot_->Publish(exchange::NowAnswer{
+      .agent = AgentId("robot1"), .client = again.client, .number = again.number}));
+  test::Await([&] { return robot_shown()["unanswered_stop_unix_ms"].is_null(); },
+              "that it is stopped");
+}
+
 TEST_F(DeskTest, AMissionThatAServerPutsOffIsSentAgain) {
   const auto server = bus_.Open(exchange::ServerTopics());
   auto sent = std::async(std::launch::async, [&] {

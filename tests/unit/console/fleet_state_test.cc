@@ -159,6 +159,67 @@ TEST_F(FleetStateTest, WhoIsSilentOrGoneStaysListed) {
   EXPECT_EQ(Robot()["state"], "driving");
 }
 
+TEST_F(FleetStateTest, WhoHasNotEndedMayMoveHoweverLongItIsSilent) {
+  AgentStatus status = Status("robot1", AgentMode::kReplaying);
+  status.speed_mps = 0.4;
+  Hear(status);
+  Hear(Status("robot2", AgentMode::kStopped));
+  Hear(Status("scout", AgentMode::kTeaching, "", AgentRole::kScout));
+  Hear(exchange::AgentGone{AgentId("robot1"), 7});
+  const auto known = state_.MayMove(now_ + seconds(5));
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_EQ(known[0].robot, AgentId("robot1"));
+  EXPECT_EQ(known[0].last_seen, "last seen 5 s ago, moving at 0.40 m/s");
+}
+
+TEST_F(FleetStateTest, AnUnansweredStopIsToldAgainUntilItIsAnsweredOrHoldsOrIsWithdrawn) {
+  const exchange::NowCommand stop{.client = AgentId("desk"), .number = 9, .reason = "rain"};
+  const auto open = [&] {
+    AgentStatus moving = Status("robot1", AgentMode::kReplaying);
+    Hear(moving);
+    state_.KeepTelling(AgentId("robot1"), stop, now_, 1234);
+    EXPECT_EQ(Robot()["unanswered_stop_unix_ms"], 1234);
+    EXPECT_EQ(Robot()["needs_person"], true);
+    now_ += FleetState::kStopAgainEvery;
+    Hear(moving);
+    const auto told = state_.TakeOpenStops(now_);
+    ASSERT_EQ(told.size(), 1U) << "it moves yet";
+    EXPECT_EQ(told[0].number, 9U) << "obeyed once, however often it is heard";
+    EXPECT_EQ(told[0].reason, "rain");
+    EXPECT_EQ(told[0].whom, mission::NowWhom::kRobot) << "others have answered";
+    EXPECT_EQ(told[0].name, "robot1");
+    EXPECT_TRUE(state_.TakeOpenStops(now_).empty()) << "just told";
+  };
+  const auto is_over = [&] {
+    now_ += FleetState::kStopAgainEvery;
+    return Robot()["unanswered_stop_unix_ms"].is_null() && state_.TakeOpenStops(now_).empty();
+  };
+  open();
+  Hear(exchange::NowAnswer{AgentId("robot1"), AgentId("desk"), 8});
+  EXPECT_EQ(Robot()["unanswered_stop_unix_ms"], 1234) << "that was to something else";
+  Hear(exchange::NowAnswer{AgentId("robot1"), AgentId("desk"), 9});
+  EXPECT_TRUE(is_over()) << "answered";
+  open();
+  AgentStatus stopped = Status("robot1", AgentMode::kWaiting);
+  stopped.hold = AgentHold::kStopped;
+  Hear(stopped);
+  EXPECT_TRUE(is_over()) << "it stands by somebody else's stop";
+  open();
+  Hear(Status("robot1", AgentMode::kStopped));
+  EXPECT_TRUE(is_over()) << "it has ended";
+  open();
+  now_ += seconds(10);
+  EXPECT_EQ(Robot()["orders"], json({"release", "stop"})) << "silent";
+  const auto told_at = now_;
+  now_ += seconds(1);
+  state_.Release(AgentId("robot1"), now_);
+  EXPECT_TRUE(is_over()) << "withdrawn";
+  state_.KeepTelling(AgentId("robot1"), stop, told_at, 1234);
+  EXPECT_TRUE(is_over()) << "the release was the later word";
+  state_.KeepTelling(AgentId("nobody"), stop, now_, 1234);
+  EXPECT_TRUE(state_.TakeOpenStops(now_).empty());
+}
+
 TEST_F(FleetStateTest, NothingChangesWhileARobotSaysTheSame) {
   Hear(Status("robot1", AgentMode::kReplaying));
   const json before = Shown();

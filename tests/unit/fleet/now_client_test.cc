@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "services/exchange/in_process_exchange.h"
+#include "services/fleet/telling.h"
 #include "services/program/presence.h"
 
 namespace trailcast::fleet {
@@ -83,9 +84,85 @@ TEST_F(NowClientTest, OfAllItNamesThoseWhoDoNotAnswer) {
               ElementsAre(Field(&RobotsWord::robot, "robot1"), Field(&RobotsWord::robot, "robot2"),
                           Field(&RobotsWord::robot, "robot3")));
   EXPECT_EQ(WordsText(*words),
-            "robot1: says robot1\nrobot2: did not answer\nrobot3: does not obey: says robot3\n");
+            "robot1: says robot1\nrobot2: did not answer: last seen driving\n"
+            "robot3: does not obey: says robot3\n");
   EXPECT_EQ(WordsJson(*words)[1].dump(),
-            R"({"robot":"robot2","answered":false,"obeys":false,"detail":""})");
+            R"({"robot":"robot2","answered":false,"obeys":false,"detail":"last seen driving"})");
+}
+
+TEST_F(NowClientTest, OfAllItNamesWhoIsSilentAndOnAMissionByAServer) {
+  const auto server = bus_.Open(exchange::ServerTopics());
+  std::thread answering([&] {
+    while (!ending_) {
+      for (const exchange::Message& message : server->Take(milliseconds(10))) {
+        const auto* asked = std::get_if<exchange::MissionRequest>(&message);
+        if (asked == nullptr) continue;
+        exchange::MissionReply reply{
+            .server = AgentId("barn"), .client = asked->client, .request = asked->request};
+        for (const auto& [robot, change] : {std::pair{"robot1", 3U}, {"robot2", 4U}, {"far", 0U}}) {
+          reply.missions.push_back(
+              {.mission = {.agent = AgentId(robot),
+                           .id = "trip",
+                           .client = AgentId("other"),
+                           .orders = "follow hall"},
+               .last = {.agent = AgentId(robot),
+                        .mission = "trip",
+                        .change = change,
+                        .state = change > 0 ? mission::State::kUnderWay : mission::State::kSent}});
+        }
+        (void)server->Publish(reply);
+      }
+    }
+  });
+  Robot("robot1", "hall", true);
+  const auto all = Tell({{NowWhom::kAll, ""}}, milliseconds(4000));
+  const auto on_hall = Tell({{NowWhom::kOnRoute, "hall"}}, milliseconds(4000));
+  const auto on_yard = Tell({{NowWhom::kOnRoute, "yard"}}, milliseconds(2000));
+  ending_ = true;
+  answering.join();
+  ASSERT_TRUE(all) << all.error().message;
+  EXPECT_EQ(WordsText(*all),
+            "robot1: says robot1\n"
+            "robot2: did not answer: last known on its mission 'follow hall', under way\n");
+  ASSERT_TRUE(on_hall) << on_hall.error().message;
+  EXPECT_THAT(WordsText(*on_hall), HasSubstr("robot2"));
+  ASSERT_TRUE(on_yard) << on_yard.error().message;
+  EXPECT_THAT(WordsText(*on_yard), testing::Not(HasSubstr("robot2"))) << "it is on hall";
+}
+
+TEST(Telling, WhoIsHeardNoMoreMayBeMovingAndWhoHasEndedIsNot) {
+  Telling telling(AgentId("desk"), NowOrder::kStop, {{NowWhom::kAll, ""}}, "");
+  for (const char* name : {"ended", "killed"}) {
+    exchange::AgentStatus status;
+    status.agent = AgentId(name);
+    status.instance = 7;
+    status.role = exchange::AgentRole::kFollower;
+    status.mode = AgentMode::kReplaying;
+    status.speed_mps = 0.4;
+    telling.Hear(status);
+    status.mode = AgentMode::kStopped;
+    if (std::string_view(name) == "ended") telling.Hear(status);
+    telling.Hear(exchange::AgentGone{AgentId(name), 7});
+  }
+  EXPECT_EQ(WordsText(telling.Words()), "killed: did not answer: last seen moving at 0.40 m/s\n");
+}
+
+TEST(NowWords, AStopHasDoneItsWorkOnlyIfAllHaveAnswered) {
+  const RobotsWord stands{"robot1", true, false, "stopped"};
+  const RobotsWord also{"robot2", true, false, "stopped"};
+  const RobotsWord disobeys{"robot3", true, true, "does not know this command"};
+  const RobotsWord silent{"robot4", false, false, "last seen 5 s ago, moving at 0.40 m/s"};
+  EXPECT_EQ(ObeyedBy({stands, also}), Obeyed::kByAll);
+  EXPECT_EQ(ObeyedBy({stands, disobeys}), Obeyed::kNotByAll);
+  EXPECT_EQ(ObeyedBy({disobeys, silent}), Obeyed::kUnanswered);
+  EXPECT_EQ(StandText({stands}), "robot1 stands.");
+  EXPECT_EQ(StandText({stands, also}), "All 2 robots stand.");
+  EXPECT_EQ(
+      StandText({stands, also, silent}),
+      "2 of 3 robots stand. robot4 did not answer and may be moving (last seen 5 s ago, moving "
+      "at 0.40 m/s).");
+  EXPECT_EQ(StandText({stands, disobeys}),
+            "1 of 2 robots stand. robot3 does not obey: does not know this command.");
 }
 
 TEST_F(NowClientTest, SaysItAgainUntilItIsAnswered) {

@@ -1,4 +1,4 @@
-import { memo, useState } from 'react';
+import { memo, useEffect, useState } from 'react';
 import { tell, type Answer, type Order, type Robot } from '../api';
 import { age } from '../fleet';
 import { Glance } from './glance';
@@ -13,18 +13,30 @@ const labels: Record<Order, string> = {
   pause: 'Pause', resume: 'Resume', cancel: 'Cancel mission', stop: 'Stop', release: 'Release', end: 'End',
 };
 
+// A robot takes so long to show what it has answered.
+const kShown_ms = 2000;
+
 // Drawn anew only when the robot has changed: there may be a hundred. `now_ms` counts for one that
 // is not heard.
 export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Robot; now_ms: number }) {
   const [answer, setAnswer] = useState<Answer | null>(null);
+  const [answered_ms, setAnswered] = useState(0);
+  // What it answered is so no longer once it does something else.
+  useEffect(() => {
+    if (Date.now() > answered_ms + kShown_ms) setAnswer(null);
+  }, [robot.state, robot.unanswered_stop_unix_ms]);
+  const say = (said: Answer) => {
+    setAnswer(said);
+    setAnswered(Date.now());
+  };
   const [open, setOpen] = useState<'' | 'send' | 'teach'>('');
   const [looking, setLooking] = useState(false);
   const order = async (given: Order) => {
-    setAnswer({ ok: true, text: `${labels[given]}: told …` });
-    setAnswer(await tell(robot.name, given));
+    say({ ok: true, text: `Sending ${labels[given]} …` });
+    say(await tell(robot.name, given));
   };
   const sent = (to: Answer | null) => {
-    setAnswer(to ?? { ok: true, text: 'Sent …' });
+    say(to ?? { ok: true, text: 'Sending …' });
     if (to?.ok) setOpen('');
   };
   const mayOperate = useMay('operate');
@@ -73,7 +85,7 @@ export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Rob
       {looking && robot.state !== 'ended' && <Glance robot={robot} />}
       {obeys && open === 'send' && maySend && <Send robot={robot.name} onAnswer={sent} />}
       {obeys && open === 'teach' && maySend && <Teach robot={robot.name} onAnswer={sent} />}
-      {obeys && robot.teaches && robot.heard && <Teaching robot={robot} onAnswer={setAnswer} />}
+      {obeys && robot.teaches && robot.heard && <Teaching robot={robot} onAnswer={say} />}
       <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>

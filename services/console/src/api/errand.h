@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/base/result.h"
+#include "services/console/fleet_state.h"
 #include "services/exchange/messages.h"
 
 namespace trailcast::console {
@@ -25,6 +26,9 @@ class Errand {
     return std::chrono::milliseconds(200);
   }
   virtual void Hear(const exchange::Message& message) = 0;
+  // Before its first words, and after its last: what the desk knows of the fleet.
+  virtual void Begin(FleetState& /*state*/, std::chrono::steady_clock::time_point /*now*/) {}
+  virtual void End(FleetState& /*state*/) {}
   // It has what it was after, or waits no longer.
   [[nodiscard]] virtual bool IsOver(std::chrono::milliseconds since) const = 0;
   virtual void Finish() = 0;

@@ -49,9 +49,16 @@ bool MakesStand(NowOrder order) {
   return order != NowOrder::kResume && order != NowOrder::kRelease;
 }
 
-int StatusOf(const fleet::RobotsWord& word) {
-  if (!word.answered) return 504;
-  return word.refused ? 409 : 200;
+int StatusOf(const std::vector<fleet::RobotsWord>& words) {
+  switch (fleet::ObeyedBy(words)) {
+    case fleet::Obeyed::kByAll:
+      return 200;
+    case fleet::Obeyed::kNotByAll:
+      return 409;
+    case fleet::Obeyed::kUnanswered:
+      break;
+  }
+  return 504;
 }
 
 // Robots and servers know the console alone, and who it is of its users from this.
@@ -240,9 +247,12 @@ void Web::Tell(NowOrder order, const fleet::NowTarget& target, const Request& re
     return Refuse(response, nobody ? 504 : 503, words.error().message);
   }
   commands_.Count(order, *words);
-  if (target.whom == NowWhom::kAll)
-    return Answer(response, 200, OneLine({{"robots", fleet::WordsJson(*words)}}));
-  Answer(response, StatusOf(words->front()), OneLine(fleet::WordJson(words->front())));
+  if (target.whom == NowWhom::kAll) {
+    return Answer(
+        response, StatusOf(*words),
+        OneLine({{"robots", fleet::WordsJson(*words)}, {"text", fleet::StandText(*words)}}));
+  }
+  Answer(response, StatusOf(*words), OneLine(fleet::WordJson(words->front())));
 }
 
 void Web::ServeMissions() {
