@@ -145,7 +145,7 @@ export async function change<Reply>(method: 'PUT' | 'DELETE', path: string, body
   }
 }
 
-const unreachable: Answer = { ok: false, text: 'The console does not answer: it may not have been told.' };
+const unreachable: Answer = { ok: false, text: 'The console does not answer: the robot may not have been told.' };
 
 export async function tell(robot: string, order: Order): Promise<Answer> {
   try {

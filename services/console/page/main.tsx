@@ -14,6 +14,8 @@ import { RobotCard } from './robot/robot';
 import { Routes } from './routes/routes';
 import { Badge } from './robot/state';
 import { Lines } from './robot/strip';
+import { Lost } from './lost';
+import { StopButton } from './stop';
 
 function Attention({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
   const needing = robots.filter((robot) => robot.needs_person);
@@ -33,7 +35,12 @@ function Attention({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
   );
 }
 
-function Robots({ fleet, settled, now_ms }: { fleet: Fleet | null; settled: boolean; now_ms: number }) {
+function Robots({ fleet, settled, lost_ms, now_ms }: {
+  fleet: Fleet | null;
+  settled: boolean;
+  lost_ms: number | null;
+  now_ms: number;
+}) {
   const robots = fleet?.robots ?? [];
   return (
     <>
@@ -45,7 +52,7 @@ function Robots({ fleet, settled, now_ms }: { fleet: Fleet | null; settled: bool
           <p className="note">No robot is heard. One that is on duty (<code>trailcast-agent serve</code>) shows up here.</p>
         )}
         {robots.map((robot) => (
-          <RobotCard key={robot.name} robot={robot} now_ms={robot.heard ? 0 : now_ms} />
+          <RobotCard key={robot.name} robot={robot} lost_ms={lost_ms} now_ms={robot.heard && lost_ms === null ? 0 : now_ms} />
         ))}
       </section>
       <section aria-label="Missions">
@@ -57,7 +64,7 @@ function Robots({ fleet, settled, now_ms }: { fleet: Fleet | null; settled: bool
 }
 
 // Who was told to stop and has not answered stays in view until it has.
-function NotStopped({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
+function NotStopped({ robots, lost, now_ms }: { robots: Robot[]; lost: boolean; now_ms: number }) {
   const open = robots.filter((robot) => robot.unanswered_stop_unix_ms !== null);
   if (open.length === 0) return null;
   const seen = (robot: Robot) => {
@@ -73,8 +80,8 @@ function NotStopped({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
           {i > 0 && '; '}<a href={`#robot-${robot.name}`}>{robot.name}</a> ({seen(robot)})
         </span>
       ))}
-      . It does not answer and may be moving: use its red button. Stop is sent to it again and again, until it answers or you
-      release it.
+      . It does not answer and may be moving: use its red button.
+      {!lost && ' Stop is sent to it again and again, until it answers or you release it.'}
     </p>
   );
 }
@@ -83,17 +90,18 @@ function NotStopped({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
 const kShown_ms = 2000;
 
 // What was answered, for as long as the robots are so.
-function useStopAnswer(robots: Robot[], now_ms: number) {
+function useStopAnswer(robots: Robot[], lost: boolean, now_ms: number) {
   const [answer, setAnswer] = useState<StopAnswer | null>(null);
   const [at_ms, setAt] = useState(0);
   useEffect(() => {
+    if (lost && answer?.ok) setAnswer(null);
     if (!answer || answer.robots.length === 0 || Date.now() < at_ms + kShown_ms) return;
     const holds = answer.robots.every(({ robot, answered, obeys }) => {
       const is = robots.find((each) => each.name === robot);
       return answered ? !obeys || is?.state === 'stopped' : is?.unanswered_stop_unix_ms != null;
     });
     if (!holds) setAnswer(null);
-  }, [answer, at_ms, robots, now_ms]);
+  }, [answer, at_ms, robots, lost, now_ms]);
   const say = (said: StopAnswer) => {
     setAnswer(said);
     setAt(Date.now());
@@ -106,7 +114,7 @@ const kStep_ms = 10000;
 
 function Page() {
   const { fleet, settled, lost, now_ms, heard_ms } = useFleet();
-  const { answer, say } = useStopAnswer(fleet?.robots ?? [], now_ms);
+  const { answer, say } = useStopAnswer(fleet?.robots ?? [], lost, now_ms);
   const { page, open } = usePage();
   const mayOperate = useMay('operate');
   useEffect(() => remember(fleet?.robots ?? []), [fleet]);
@@ -116,40 +124,35 @@ function Page() {
     say(await stopAll());
   };
   return (
-    <>
+    <Lost.Provider value={lost}>
       <div className="pinned">
         <header className="top">
           <h1>Trailcast</h1>
           <Pages page={page} />
           <WhoIsIn />
-          {mayOperate && <button className="stop all" onClick={stop} aria-describedby="stop-help">Stop all</button>}
+          {mayOperate && <StopButton onClick={stop} />}
         </header>
-        <NotStopped robots={fleet?.robots ?? []} now_ms={now_ms} />
+        {lost && (
+          <p className="banner" role="alert">
+            ⚠ Connection lost: Stop will not reach robots. Use the red button on the robot.{' '}
+            {fleet ? `Data is from ${age(now_ms - heard_ms)} ago.`
+              : 'The console does not answer, or too many pages are open. This page tries again.'}
+          </p>
+        )}
+        <NotStopped robots={fleet?.robots ?? []} lost={lost} now_ms={now_ms} />
       </div>
       <p className={answer && !answer.ok ? 'answer top-answer bad' : 'answer top-answer'} role="status">
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>
       <OnlyLooks />
-      {lost && !fleet && (
-        <p className="banner" role="alert">
-          ⚠ The console tells this page nothing: it does not answer, or too many pages look already.
-          This one asks again, and Stop may not reach the robots.
-        </p>
-      )}
-      {lost && fleet && (
-        <p className="banner" role="alert">
-          ⚠ This page has lost its console. What it shows is from {age(now_ms - heard_ms)} ago, and
-          Stop does not reach the robots.
-        </p>
-      )}
       {settled && !lost && !servers.some((server) => server.heard) && (
         <p className="banner" role="alert">
           ⚠ No route server is heard: no routes to choose from, nothing is kept, and only robots in
           direct reach hear this console.
         </p>
       )}
-      <main>
-        {page === 'fleet' && <Robots fleet={fleet} settled={settled} now_ms={now_ms} />}
+      <main className={lost ? 'stale' : ''}>
+        {page === 'fleet' && <Robots fleet={fleet} settled={settled} lost_ms={lost ? heard_ms : null} now_ms={now_ms} />}
         {page === 'map' && <MapPage robots={fleet?.robots ?? []} routes={fleet?.routes ?? []} settled={settled} />}
         {page === 'network' && <NetworkPage robots={fleet?.robots ?? []} live={fleet?.routes ?? []} />}
         {page === 'routes' && <Routes open={open} now_ms={now_ms - now_ms % kStep_ms} />}
@@ -169,7 +172,7 @@ function Page() {
           <a href="/api/openapi.yaml">For programs</a>
         </p>
       </footer>
-    </>
+    </Lost.Provider>
   );
 }
 

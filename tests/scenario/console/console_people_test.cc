@@ -168,8 +168,18 @@ TEST_F(ConsolePeopleTest, AnOperatorPausesOneOfThreeRobotsAndWhoLooksSeesIt) {
   EXPECT_TRUE(Stands("robot2.csv"));
   console_->Signal(SIGKILL);
   for (Browser* browser : {anna.get(), guest.get()}) {
-    EXPECT_TRUE(browser->WaitForText("This page has lost its console")) << browser->Text();
+    EXPECT_TRUE(browser->WaitForText("Connection lost: Stop will not reach robots"))
+        << browser->Text();
+    EXPECT_TRUE(WaitForCard(*browser, "robot1", "Last: Driving")) << browser->Text();
+    EXPECT_TRUE(WaitForCard(*browser, "robot1", "data below is stale")) << browser->Text();
+    (void)browser->Run("window.scrollTo(0, document.body.scrollHeight)");
+    EXPECT_EQ(browser->Run("const at = document.querySelector('.pinned .banner')"
+                           ".getBoundingClientRect(); return at.top >= 0 && at.bottom <= innerHeight"),
+              json(true))
+        << "wherever one has scrolled to";
   }
+  EXPECT_TRUE(WaitForCard(*anna, "robot1", "will not arrive")) << "its Stop";
+  EXPECT_THAT(anna->Text(), HasSubstr("Stop all will not arrive"));
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   const Ended stop_all = End(*Start("trailcast", {"stop", "--all", "--timeout", "2"}, "stop-all"));
   EXPECT_EQ(stop_all.status, 1) << stop_all.output;
   EXPECT_THAT(stop_all.output, HasSubstr("robot1: did not answer: last known on its mission"));
-  EXPECT_THAT(browser.Text(), AllOf(HasSubstr("Last heard"), HasSubstr("Needs a person")));
+  EXPECT_THAT(browser.Text(), AllOf(HasSubstr("Last seen"), HasSubstr("Needs a person")));
   browser.Look(1280, 800, true);
   browser.Screenshot(Shot("desktop-silent"));
   browser.Open("about:blank");
@@ -202,7 +202,7 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   browser.Open(Page());
   ASSERT_TRUE(browser.WaitForText("Silent")) << browser.Text();
   console_->Signal(SIGKILL);
-  ASSERT_TRUE(browser.WaitForText("This page has lost its console")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Connection lost: Stop will not reach robots")) << browser.Text();
   browser.Look(390, 844);
   browser.Screenshot(Shot("phone-lost"));
 }

@@ -4,7 +4,8 @@ import { age } from '../fleet';
 import { Glance } from './glance';
 import { useMay } from '../me';
 import { Send } from './send';
-import { Badge, shapes } from './state';
+import { Badge } from './state';
+import { StopButton } from '../stop';
 import { Strip } from './strip';
 import { Teach, Teaching } from './teach';
 import { Vitals } from './vitals';
@@ -16,9 +17,19 @@ const labels: Record<Order, string> = {
 // A robot takes so long to show what it has answered.
 const kShown_ms = 2000;
 
+// The older what is known of a robot, the fainter.
+function agedBy(ms: number): string {
+  return ms < 30000 ? 'aged-little' : ms < 300000 ? 'aged' : 'aged-much';
+}
+
 // Drawn anew only when the robot has changed: there may be a hundred. `now_ms` counts for one that
-// is not heard.
-export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Robot; now_ms: number }) {
+// is not heard, or of which the page hears nothing since `lost_ms`.
+export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms }: {
+  robot: Robot;
+  lost_ms: number | null;
+  now_ms: number;
+}) {
+  const seen_ms = robot.last_heard_unix_ms ?? lost_ms;
   const [answer, setAnswer] = useState<Answer | null>(null);
   const [answered_ms, setAnswered] = useState(0);
   // What it answered is so no longer once it does something else.
@@ -45,21 +56,15 @@ export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Rob
   const mission = robot.mission;
   const maySend = !mission && !['driving', 'teaching', 'ended'].includes(robot.state);
   return (
-    <article id={`robot-${robot.name}`} className={robot.heard ? '' : 'unheard'} aria-label={robot.name}>
+    <article id={`robot-${robot.name}`} className={seen_ms === null ? '' : `unheard ${agedBy(now_ms - seen_ms)}`} aria-label={robot.name}>
       <header>
         <h2>{robot.name}</h2>
         <Badge state={robot.state} />
         {obeys && (
-          <button className="stop" onClick={() => order('stop')} aria-describedby="stop-help"
-            title="Stands until it is released. No emergency stop.">
-            <svg viewBox="0 0 16 16" aria-hidden="true"><path d={shapes.stopped} /></svg>Stop
-            <span className="hidden"> {robot.name}</span>
-          </button>
+          <StopButton robot={robot.name} onClick={() => order('stop')} />
         )}
       </header>
-      {robot.last_heard_unix_ms !== null && (
-        <p className="last-heard">Last heard {age(now_ms - robot.last_heard_unix_ms)} ago; what follows is from then.</p>
-      )}
+      {seen_ms !== null && <p className="last-heard">Last seen {age(now_ms - seen_ms)} ago; data below is stale.</p>}
       {robot.detail && robot.detail !== robot.state && <p className="detail">{robot.detail}</p>}
       {robot.route && !robot.teaches && <Strip robot={robot} />}
       <Vitals robot={robot} />
@@ -85,7 +90,7 @@ export const RobotCard = memo(function RobotCard({ robot, now_ms }: { robot: Rob
       {looking && robot.state !== 'ended' && <Glance robot={robot} />}
       {obeys && open === 'send' && maySend && <Send robot={robot.name} onAnswer={sent} />}
       {obeys && open === 'teach' && maySend && <Teach robot={robot.name} onAnswer={sent} />}
-      {obeys && robot.teaches && robot.heard && <Teaching robot={robot} onAnswer={say} />}
+      {obeys && robot.teaches && seen_ms === null && <Teaching robot={robot} onAnswer={say} />}
       <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>

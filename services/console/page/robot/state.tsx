@@ -1,5 +1,7 @@
 // These tell what a robot does: by a shape, a word and a line of text.
+import { useContext } from 'react';
 import type { Robot, RobotState } from '../api';
+import { Lost } from '../lost';
 
 const words: Record<RobotState, string> = {
   silent: 'Silent', stopped: 'Stopped', paused: 'Paused', starting: 'Starting', free: 'Free',
@@ -15,12 +17,14 @@ export const shapes: Record<RobotState, string> = {
   arrived: 'M2 8l4 4 8-8', ended: 'M4 4h8v8H4z', fault: 'M8 2l7 12H1z',
 };
 
+// Where the page has lost its console, a robot's state is what it was last.
 export function Badge({ state }: { state: RobotState }) {
+  const lost = useContext(Lost);
   const filled = ['stopped', 'paused', 'driving', 'fault'].includes(state);
   return (
-    <span className={`badge ${state}`}>
+    <span className={lost ? 'badge old' : `badge ${state}`}>
       <svg viewBox="0 0 16 16" aria-hidden="true" className={filled ? 'filled' : ''}><path d={shapes[state]} /></svg>
-      {words[state]}
+      {lost ? `Last: ${words[state]}` : words[state]}
     </span>
   );
 }
