@@ -11,11 +11,10 @@
 
 #include "services/base/newest_map.h"
 #include "services/exchange/messages.h"
+#include "services/fleet/robot_state.h"
 #include "services/http/metrics_text.h"
 
 namespace trailcast::console {
-
-enum class RobotState : std::uint8_t;
 
 // Makes what openapi.yaml calls State of what FleetState::Shown gives, without line breaks.
 [[nodiscard]] std::string StateBody(const nlohmann::ordered_json& state, std::int64_t now_unix_ms);
@@ -105,9 +104,10 @@ class FleetState {
   };
   // How a robot is doing.
   struct Standing {
-    RobotState state{};
+    fleet::RobotState state{};
     bool needs_person = false;
     const mission::Record* mission = nullptr;  // that has not ended
+    const mission::Report* last = nullptr;     // of the newest that it has taken
   };
   using MissionName = std::pair<AgentId, std::string>;
   using Latest = std::map<AgentId, const mission::Record*>;

@@ -430,8 +430,8 @@ void Duty::Done(const std::string& what) {
 }
 
 void Duty::End(State state, const std::string& why) {
-  last_ = fmt::format("free; mission {}: {}{}{}", desk_.current()->mission.id,
-                      mission::ToString(state), why.empty() ? "" : ": ", why);
+  last_ = fmt::format("mission {}: {}{}{}", desk_.current()->mission.id, mission::ToString(state),
+                      why.empty() ? "" : ": ", why);
   desk_.Tell(state, why);
   told_.reset();
   elsewhere_.Reset();

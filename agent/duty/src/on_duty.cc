@@ -126,8 +126,9 @@ void Duty::NoteAilment(steady_clock::time_point now) {
 }
 
 void Duty::TellState(State state, const std::string& why, mission::WaitsFor waits_for) {
-  // Why it stands may change, as from paused to stopped; how far a route is fetched is no news.
-  const bool same_reason = state != State::kPaused || why == told_why_;
+  // Why it stands may change, as from paused to stopped, and is over when it drives on; how far a
+  // route is fetched is no news.
+  const bool same_reason = state == State::kFetching || why == told_why_;
   if (told_ == state && told_waits_for_ == waits_for && same_reason) return;
   told_ = state;
   told_waits_for_ = waits_for;

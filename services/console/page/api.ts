@@ -13,8 +13,8 @@ export type Mission = {
 };
 
 export type RobotState =
-  | 'silent' | 'stopped' | 'paused' | 'starting' | 'free' | 'waiting' | 'teaching' | 'driving'
-  | 'arrived' | 'ended' | 'fault';
+  | 'offline' | 'stopped' | 'paused' | 'starting' | 'available' | 'waiting' | 'teaching' | 'driving'
+  | 'arrived' | 'failed' | 'shut down' | 'fault';
 
 export type Order = 'pause' | 'resume' | 'cancel' | 'stop' | 'release' | 'end';
 

@@ -27,7 +27,8 @@ function Attention({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
         {needing.map((robot) => (
           <li key={robot.name}>
             <a href={`#robot-${robot.name}`}>{robot.name}</a> <Badge state={robot.state} />{' '}
-            {robot.last_heard_unix_ms !== null ? `last heard ${age(now_ms - robot.last_heard_unix_ms)} ago, in the middle of a mission` : robot.detail}
+            {robot.last_heard_unix_ms === null ? robot.detail : `last seen ${age(now_ms - robot.last_heard_unix_ms)} ago`}
+            {robot.last_heard_unix_ms !== null && robot.mission && `, in the middle of its mission '${robot.mission.orders || robot.mission.mission}'`}
           </li>
         ))}
       </ul>

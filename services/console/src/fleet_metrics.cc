@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "services/console/fleet_state.h"
-#include "services/console/src/robot_state.h"
+#include "services/fleet/robot_state.h"
 #include "services/mission/mission.h"
 
 namespace trailcast::console {
@@ -39,11 +39,11 @@ void FleetState::Measure(http::MetricsText& text) const {
     const Standing standing =
         StandingOf(agent, mission == latest.end() ? nullptr : mission->second);
     robots.emplace(name.value(), Robot{&agent, standing});
-    ++in_state[ToText(standing.state)];
+    ++in_state[fleet::ToText(standing.state)];
   }
 
   text.Begin("robots", kGauge, "Robots that were heard, by what they do.");
-  for (const char* state : kRobotStates) text.Add(in_state[state], {{"state", state}});
+  for (const char* state : fleet::kRobotStates) text.Add(in_state[state], {{"state", state}});
 
   // Of each robot of which it is known.
   const auto each = [&](const char* name, const char* help, const auto& add) {
@@ -58,11 +58,12 @@ void FleetState::Measure(http::MetricsText& text) const {
   };
   each("robot_info", "1 for each robot.", [&](std::string_view robot, const Robot& is) {
     const AgentStatus& status = is.agent->status;
-    text.Add(1, {{"robot", robot}, {"role", ToText(status.role)}, {"software", status.software}});
+    text.Add(
+        1, {{"robot", robot}, {"role", fleet::ToText(status.role)}, {"software", status.software}});
   });
   each("robot_state", "1 for what the robot does; of what it does not do there is none.",
        [&](std::string_view robot, const Robot& is) {
-         text.Add(1, {{"robot", robot}, {"state", ToText(is.standing.state)}});
+         text.Add(1, {{"robot", robot}, {"state", fleet::ToText(is.standing.state)}});
        });
   each("robot_needs_person", "1 while a person should look after it, else 0.",
        [&](std::string_view robot, const Robot& is) {

@@ -6,7 +6,6 @@
 #include <set>
 #include <variant>
 
-#include "services/console/src/robot_state.h"
 #include "services/fleet/following_words.h"
 #include "services/fleet/mission_client.h"
 #include "services/fleet/now_client.h"
@@ -20,6 +19,7 @@ namespace {
 using exchange::AgentMode;
 using exchange::AgentRole;
 using exchange::AgentStatus;
+using fleet::RobotState;
 using program::Json;
 using program::Rounded;
 
@@ -31,12 +31,12 @@ Json OrdersFor(RobotState state, const AgentStatus& status, bool has_mission, bo
     orders.push_back("release");
   } else if (state == RobotState::kPaused) {
     orders.push_back("resume");
-  } else if (state != RobotState::kEnded) {
+  } else if (state != RobotState::kShutDown) {
     orders.push_back("pause");
   }
   if (status.on_duty && status.mode == AgentMode::kTeaching) orders.push_back("end");
   if (has_mission) orders.push_back("cancel");
-  if (state != RobotState::kEnded) orders.push_back("stop");
+  if (state != RobotState::kShutDown) orders.push_back("stop");
   return orders;
 }
 
@@ -238,22 +238,24 @@ FleetState::Standing FleetState::StandingOf(const Agent& agent, const mission::R
   Standing standing;
   const bool has_ended = latest != nullptr && mission::HasEnded(latest->last.state);
   standing.mission = has_ended ? nullptr : latest;
-  const bool on_mission = standing.mission != nullptr;
-  const bool ended = agent.status.mode == AgentMode::kStopped;
-  standing.state = RobotStateOf(agent.status, agent.silent && !ended, on_mission);
-  const bool failed = latest != nullptr && latest->last.state == mission::State::kFailed;
+  standing.last = latest == nullptr ? nullptr : &latest->last;
+  standing.state = fleet::RobotStateOf(agent.status, agent.silent, standing.last);
+  const bool failed = standing.last != nullptr && standing.last->state == mission::State::kFailed;
+  // By itself it does not go on.
+  const bool held = standing.state == RobotState::kOffline ||
+                    standing.state == RobotState::kPaused || standing.state == RobotState::kStopped;
   standing.needs_person = failed || agent.open_stop.has_value() ||
                           standing.state == RobotState::kFault ||
-                          (standing.state == RobotState::kSilent && on_mission);
+                          (held && standing.mission != nullptr);
   return standing;
 }
 
 Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest) const {
   const AgentStatus& status = agent.status;
-  const auto [state, needs_person, mission] = StandingOf(agent, latest);
+  const auto [state, needs_person, mission, last] = StandingOf(agent, latest);
   Json robot{{"name", status.agent.value()},
-             {"role", ToText(status.role)},
-             {"state", ToText(state)},
+             {"role", fleet::ToText(status.role)},
+             {"state", fleet::ToText(state)},
              {"detail", status.detail},
              {"needs_person", needs_person},
              {"heard", !agent.silent},
@@ -279,7 +281,7 @@ Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest) cons
              {"features", status.features},
              {"unanswered_stop_unix_ms",
               agent.open_stop ? Json(agent.open_stop->since_unix_ms) : Json(nullptr)},
-             {"orders", OrdersFor(RobotStateOf(status, false, mission != nullptr), status,
+             {"orders", OrdersFor(fleet::RobotStateOf(status, false, last), status,
                                   mission != nullptr, agent.open_stop.has_value())}};
   if (status.place) {
     robot["route_id"] = status.place->key.route.value();

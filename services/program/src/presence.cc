@@ -22,6 +22,9 @@ exchange::AgentStatus Starting(exchange::AgentStatus status) {
   return status;
 }
 
+// Room for a low battery in a status' line.
+constexpr std::size_t kBatteryLineBytes = 32;
+
 }  // namespace
 
 Presence::Presence(exchange::RouteExchange& exchange, exchange::AgentStatus status,
@@ -136,7 +139,8 @@ void Presence::Set(exchange::AgentStatus status) {
   status.role = status_.role;
   status.instance = status_.instance;
   status.software = status_.software;
-  status.detail = PlainText(status.detail, 200);
+  // A low battery is told after it.
+  status.detail = PlainText(status.detail, exchange::kMaxLineBytes - kBatteryLineBytes);
   status_ = std::move(status);
 }
 
@@ -151,10 +155,8 @@ void Presence::Publish() {
   status.battery_percent = vitals.battery_percent;
   status.link_percent = vitals.link_percent;
   if (vitals.battery_percent && *vitals.battery_percent < kBatteryLow_percent) {
-    status.detail =
-        PlainText(fmt::format("{}{}battery low: {} %", status.detail,
-                              status.detail.empty() ? "" : "; ", *vitals.battery_percent),
-                  exchange::kMaxLineBytes);
+    status.detail = fmt::format("{}{}battery low: {} %", status.detail,
+                                status.detail.empty() ? "" : "; ", *vitals.battery_percent);
   }
   if (std::string trouble = NameTrouble(); !trouble.empty()) status.detail = std::move(trouble);
   // A status that cannot be handed over is followed by the next one.

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "services/base/time.h"
+#include "services/fleet/draw.h"
 #include "services/fleet/operator_peer.h"
 #include "services/fleet/robots_there.h"
 #include "services/program/json.h"
@@ -13,10 +14,14 @@
 namespace trailcast::tool {
 namespace {
 
+constexpr std::uint32_t kMissionsAsked = 100;
+constexpr std::chrono::milliseconds kAskServersAgain{500};
+
 constexpr const char* kFleetExamples =
     "Examples:\n"
     "  trailcast fleet                        # robots that are heard, battery, radio, version\n"
     "  trailcast fleet --json | jq '.[] | select(.battery_percent < 20).robot'\n"
+    "One that is not heard is listed as offline where a server has it on a mission.\n"
     "Exit status: 0; 1 nobody was heard; 2 wrong usage.";
 
 struct FleetOptions {
@@ -29,18 +34,28 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const FleetOp
   // In a star robots are heard by servers alone.
   if (network.discovery == "auto") network.discovery = "mesh";
   const program::StopSignal stop;
-  const auto peer =
-      fleet::JoinAsOperator(network, {.write = {}, .read = {exchange::Topic::kAgents}});
+  const auto peer = fleet::JoinAsOperator(
+      network, {.write = {exchange::Topic::kMissionRequests},
+                .read = {exchange::Topic::kAgents, exchange::Topic::kMissionReplies}});
   if (!peer) return program::Complain(app, peer.error());
   fleet::RobotsThere robots;
+  exchange::MissionRequest newest{.client = peer->self, .request = fleet::DrawNumber()};
+  newest.query.page_size = kMissionsAsked;
+  auto ask_at = std::chrono::steady_clock::now();
   const auto until = std::chrono::steady_clock::now() + ToMilliseconds(options.listen_s);
   while (std::chrono::steady_clock::now() < until && !program::StopSignal::requested()) {
+    // Again, for a server that was not found yet.
+    if (std::chrono::steady_clock::now() >= ask_at) {
+      (void)peer->exchange->Publish(newest);
+      ask_at += kAskServersAgain;
+    }
     for (const exchange::Message& message : peer->exchange->Take(std::chrono::milliseconds(100))) {
-      robots.Hear(message);
+      const auto* reply = std::get_if<exchange::MissionReply>(&message);
+      if (reply == nullptr || reply->client == peer->self) robots.Hear(message);
     }
   }
   std::fputs((options.json ? program::Indented(robots.Json()) : robots.Text()).c_str(), stdout);
-  if (robots.size() > 0) return program::kExitOk;
+  if (robots.any_heard()) return program::kExitOk;
   std::fputs(
       "no robot was heard: do its agent and this program have the same --domain and --dds-tag?\n",
       stderr);

@@ -57,7 +57,7 @@ class ConsoleMapTest : public ConsoleFleetTest {
 TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
   DrawPlan();
   StartConsole({"--site", Path("site")});
-  ASSERT_TRUE(WaitForState("free"));
+  ASSERT_TRUE(WaitForState("available"));
   Browser browser(folder_ / "");
   ASSERT_TRUE(browser.runs()) << browser.log();
   browser.Look(1280, 800);

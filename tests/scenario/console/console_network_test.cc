@@ -40,7 +40,7 @@ TEST_F(ConsoleNetworkTest, RoutesAreJoinedClosedAndARobotIsSentToAPlaceUponThem)
   ASSERT_TRUE(Publish());
   ASSERT_NO_FATAL_FAILURE(PutOnDuty({"--sim-truth", Path("truth.csv")}));
   StartConsole();
-  ASSERT_TRUE(WaitForState("free"));
+  ASSERT_TRUE(WaitForState("available"));
   Browser browser(folder_ / "");
   ASSERT_TRUE(browser.runs()) << browser.log();
   browser.Look(1280, 1200);

@@ -56,7 +56,7 @@ class ConsolePeopleTest : public ConsoleUsersTest {
     browser->Open("https://localhost:" + std::to_string(port_) + "/");
     EXPECT_TRUE(LogInPage(*browser, user)) << browser->Text();
     for (const char* robot : kRobots) {
-      EXPECT_TRUE(WaitForCard(*browser, robot, "Free")) << browser->Text();
+      EXPECT_TRUE(WaitForCard(*browser, robot, "Available")) << browser->Text();
     }
     return browser;
   }
@@ -173,9 +173,10 @@ TEST_F(ConsolePeopleTest, AnOperatorPausesOneOfThreeRobotsAndWhoLooksSeesIt) {
     EXPECT_TRUE(WaitForCard(*browser, "robot1", "Last: Driving")) << browser->Text();
     EXPECT_TRUE(WaitForCard(*browser, "robot1", "data below is stale")) << browser->Text();
     (void)browser->Run("window.scrollTo(0, document.body.scrollHeight)");
-    EXPECT_EQ(browser->Run("const at = document.querySelector('.pinned .banner')"
-                           ".getBoundingClientRect(); return at.top >= 0 && at.bottom <= innerHeight"),
-              json(true))
+    EXPECT_EQ(
+        browser->Run("const at = document.querySelector('.pinned .banner')"
+                     ".getBoundingClientRect(); return at.top >= 0 && at.bottom <= innerHeight"),
+        json(true))
         << "wherever one has scrolled to";
   }
   EXPECT_TRUE(WaitForCard(*anna, "robot1", "will not arrive")) << "its Stop";

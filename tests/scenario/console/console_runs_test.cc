@@ -37,7 +37,7 @@ TEST_F(ConsoleRunsTest, ARunIsOpenedAgainFrameByFrame) {
                  "duty");
   ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
   StartConsole({"--logs", Path("logs")});
-  ASSERT_TRUE(WaitForState("free"));
+  ASSERT_TRUE(WaitForState("available"));
   const auto sent = Post("/api/robots/robot1/missions", {{"orders", "follow hall"}});
   ASSERT_EQ(sent.status, 200);
   const std::string mission = sent.body["mission"];

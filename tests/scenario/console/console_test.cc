@@ -28,7 +28,7 @@ class ConsoleTest : public ConsoleFleetTest {
 };
 
 TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
-  ASSERT_TRUE(WaitForState("free")) << State().dump(2) << console_->output();
+  ASSERT_TRUE(WaitForState("available")) << State().dump(2) << console_->output();
   EXPECT_EQ(State()["routes"], json::array()) << "no robot is on one";
   EXPECT_TRUE(WaitUntil([&] { return State()["servers"][0]["heard"] == true; }));
   EXPECT_TRUE(WaitUntil([&] { return Robot1()["battery_percent"] > 90; })) << Robot1();
@@ -64,6 +64,12 @@ TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
   EXPECT_THAT(refused.body["detail"].get<std::string>(), HasSubstr("release it first"));
   EXPECT_EQ(Post("/api/robots/robot1/release").status, 200);
   EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
+  EXPECT_TRUE(WaitUntil([&] {
+    const json robot = Robot1();
+    return robot["state"] == "driving" && robot["mission"].is_object() &&
+           robot["mission"]["detail"] == "";
+  })) << "that it stood is said no longer: "
+      << Robot1().dump(2);
   ASSERT_TRUE(WaitUntil([&] {
     const auto got = Client().Get("/api/missions?robot=robot1");
     return got && got->body.find("\"arrived\"") != std::string::npos;
@@ -73,7 +79,7 @@ TEST_F(ConsoleTest, ARobotIsSentPausedStoppedReleasedAndArrives) {
 }
 
 TEST_F(ConsoleTest, WhatIsWrongIsSaidAndWhoFallsSilentStaysListed) {
-  ASSERT_TRUE(WaitForState("free")) << State().dump(2);
+  ASSERT_TRUE(WaitForState("available")) << State().dump(2);
   EXPECT_EQ(Post("/api/robots/robot1/missions", {{"orders", "dance"}}).status, 400);
   const Replied unknown = Post("/api/robots/robot1/missions", {{"orders", "follow attic"}});
   EXPECT_THAT(unknown.status, testing::AnyOf(200, 409)) << unknown.body.dump();
@@ -89,7 +95,7 @@ TEST_F(ConsoleTest, WhatIsWrongIsSaidAndWhoFallsSilentStaysListed) {
 
   agent_->Signal(SIGKILL);
   (void)End(*agent_);
-  ASSERT_TRUE(WaitForState("silent")) << State().dump(2);
+  ASSERT_TRUE(WaitForState("offline")) << State().dump(2);
   const json robot = Robot1();
   EXPECT_EQ(robot["heard"], false);
   EXPECT_EQ(robot["needs_person"], true) << "in the middle of a mission";
@@ -102,7 +108,7 @@ TEST_F(ConsoleTest, WhatIsWrongIsSaidAndWhoFallsSilentStaysListed) {
 }
 
 TEST_F(ConsoleTest, AllAreStoppedAtOnce) {
-  ASSERT_TRUE(WaitForState("free")) << State().dump(2);
+  ASSERT_TRUE(WaitForState("available")) << State().dump(2);
   EXPECT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall"}}).status, 200);
   ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
   const Replied stopped = Post("/api/all/stop");
@@ -117,7 +123,7 @@ TEST_F(ConsoleTest, TheExampleSendsARobotAndWaitsUntilItHasArrived) {
   if (std::system("command -v curl jq >/dev/null") != 0) {
     GTEST_SKIP() << "curl and jq are not installed";
   }
-  ASSERT_TRUE(WaitForState("free")) << State().dump(2);
+  ASSERT_TRUE(WaitForState("available")) << State().dump(2);
   const auto example = [&](const Words& words) {
     Process process(With({"/usr/bin/env", "CONSOLE=http://localhost:" + std::to_string(port_),
                           SourceDir() + "/config/examples/send_and_wait.sh", "robot1"},
@@ -144,7 +150,7 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   browser.Look(390, 844);
   browser.Open(Page());
   ASSERT_TRUE(browser.WaitForText("robot1")) << browser.Text();
-  ASSERT_TRUE(browser.WaitForText("Free")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Available")) << browser.Text();
   EXPECT_THAT(browser.Text(), HasSubstr("emergency stop"));
 
   ASSERT_TRUE(browser.Click("//button[contains(., 'Send')]"));
@@ -181,7 +187,7 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
 
   agent_->Signal(SIGKILL);
-  ASSERT_TRUE(browser.WaitForText("Silent")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Offline")) << browser.Text();
   const Replied silent = Post("/api/all/stop");
   EXPECT_EQ(silent.status, 504) << silent.body;
   EXPECT_THAT(silent.body["text"].get<std::string>(),
@@ -200,7 +206,7 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
     return metrics && metrics->body.find("\ntrailcast_console_streams 0\n") != std::string::npos;
   })) << "a page that was left is told nothing";
   browser.Open(Page());
-  ASSERT_TRUE(browser.WaitForText("Silent")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Offline")) << browser.Text();
   console_->Signal(SIGKILL);
   ASSERT_TRUE(browser.WaitForText("Connection lost: Stop will not reach robots")) << browser.Text();
   browser.Look(390, 844);

@@ -78,7 +78,7 @@ TEST_F(GlanceTest, ShowsWhatTheCameraSeesFreeAndOnItsWayAndSaysWhenItIsDead) {
   EXPECT_EQ(glance.status, 0) << glance.output;
   EXPECT_TRUE(image::ReadRgb(Path("seen.jpg")));
 
-  ASSERT_TRUE(WaitForState("free")) << Robot1().dump(2) << agent_->output();
+  ASSERT_TRUE(WaitForState("available")) << Robot1().dump(2) << agent_->output();
   EXPECT_EQ(Look("robot7").status, 504);
   robot_->Signal(SIGKILL);
   (void)End(*robot_);

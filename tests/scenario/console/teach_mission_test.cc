@@ -28,7 +28,7 @@ class TeachMissionTest : public ConsoleFleetTest {
     agent_ = Serve("robot1", "duty", senses_);
     ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
     StartConsole();
-    ASSERT_TRUE(WaitForState("free"));
+    ASSERT_TRUE(WaitForState("available"));
   }
   // Of the mission of this name.
   std::string Became(const std::string& mission) {
@@ -220,7 +220,7 @@ TEST_F(TeachMissionTest, APersonTeachesFromTheConsolesPage) {
   ASSERT_TRUE(browser.runs()) << browser.log();
   browser.Look(390, 844);
   browser.Open(Page());
-  ASSERT_TRUE(browser.WaitForText("Free")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Available")) << browser.Text();
   ASSERT_TRUE(browser.Click("//button[contains(., 'Teach')]"));
   ASSERT_TRUE(browser.Type("//label[contains(., 'Name')]/input", "yard"));
   ASSERT_TRUE(browser.Type("//label[contains(., 'Tags')]/input", "wet, a/b"));

@@ -167,7 +167,7 @@ TEST_F(DemoTest, WithAConsoleRobotsOnDutyDriveUntilItIsInterrupted) {
     EXPECT_TRUE(test::WaitUntil([&] { return StateOf(robot, client) == "driving"; }, seconds(200)))
         << robot << Contents(log());
   }
-  EXPECT_EQ(StateOf("robot-3", client), "free");
+  EXPECT_EQ(StateOf("robot-3", client), "available");
   const std::vector<pid_t> demos = ProcessesOf(out(), "trailcast");
   ASSERT_EQ(demos.size(), 1U);
   ASSERT_EQ(kill(demos.front(), SIGINT), 0);

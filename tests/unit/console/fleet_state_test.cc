@@ -74,14 +74,14 @@ class FleetStateTest : public testing::Test {
 TEST_F(FleetStateTest, SaysInAWordHowARobotIsAndWhichOrdersWouldChangeThat) {
   EXPECT_EQ(StateOf(AgentMode::kReplaying), "driving");
   EXPECT_EQ(Robot()["orders"], json({"pause", "stop"}));
-  EXPECT_EQ(StateOf(AgentMode::kWaiting, AgentHold::kNone, true), "free");
+  EXPECT_EQ(StateOf(AgentMode::kWaiting, AgentHold::kNone, true), "available");
   EXPECT_EQ(StateOf(AgentMode::kWaiting, AgentHold::kPaused), "paused");
   EXPECT_EQ(Robot()["orders"], json({"resume", "stop"}));
   EXPECT_EQ(StateOf(AgentMode::kReplaying, AgentHold::kStopped), "driving") << "yet";
   EXPECT_EQ(StateOf(AgentMode::kWaiting, AgentHold::kStopped, true), "stopped");
   EXPECT_EQ(Robot()["orders"], json({"release", "stop"}));
   EXPECT_EQ(StateOf(AgentMode::kWaiting), "waiting");
-  EXPECT_EQ(StateOf(AgentMode::kStopped, AgentHold::kStopped), "ended");
+  EXPECT_EQ(StateOf(AgentMode::kStopped, AgentHold::kStopped), "shut down");
   EXPECT_EQ(Robot()["orders"], json::array());
   EXPECT_EQ(StateOf(AgentMode::kTeaching, AgentHold::kNone, true), "teaching");
   EXPECT_EQ(Robot()["orders"], json({"pause", "end", "stop"}));
@@ -94,11 +94,20 @@ TEST_F(FleetStateTest, SaysInAWordHowARobotIsAndWhichOrdersWouldChangeThat) {
 }
 
 TEST_F(FleetStateTest, WhoIsOnDutyIsFreeOnlyWithoutAMission) {
-  EXPECT_EQ(StateOf(AgentMode::kWaiting, AgentHold::kNone, true), "free");
+  EXPECT_EQ(StateOf(AgentMode::kWaiting, AgentHold::kNone, true), "available");
   Hear(Report("trip", 1, State::kUnderWay));
   EXPECT_EQ(Robot()["state"], "waiting");
   Hear(Report("trip", 2, State::kArrived));
-  EXPECT_EQ(Robot()["state"], "free");
+  EXPECT_EQ(Robot()["state"], "available");
+}
+
+TEST_F(FleetStateTest, WhoIsHeldInTheMiddleOfAMissionNeedsAPerson) {
+  EXPECT_EQ(StateOf(AgentMode::kWaiting, AgentHold::kPaused, true), "paused");
+  EXPECT_EQ(Robot()["needs_person"], false) << "it has nothing to do";
+  Hear(Report("trip", 1, State::kPaused, "its agent has started again"));
+  EXPECT_EQ(Robot()["needs_person"], true) << "it does not go on by itself";
+  EXPECT_EQ(StateOf(AgentMode::kReplaying), "driving");
+  EXPECT_EQ(Robot()["needs_person"], false);
 }
 
 TEST_F(FleetStateTest, ShowsHowTheRobotIsItselfWhereItTells) {
@@ -150,11 +159,11 @@ TEST_F(FleetStateTest, WhoIsSilentOrGoneStaysListed) {
   Hear(exchange::AgentGone{AgentId("robot1"), 6});
   EXPECT_EQ(Robot()["heard"], true) << "that was another process";
   Hear(exchange::AgentGone{AgentId("robot1"), 7});
-  EXPECT_EQ(Robot()["state"], "silent");
+  EXPECT_EQ(Robot()["state"], "offline");
   EXPECT_EQ(Robot()["last_heard_unix_ms"], 1000);
   EXPECT_EQ(Robot("robot2")["heard"], true);
   now_ += seconds(10);
-  EXPECT_EQ(Robot("robot2")["state"], "silent");
+  EXPECT_EQ(Robot("robot2")["state"], "offline");
   Hear(Status("robot1", AgentMode::kReplaying));
   EXPECT_EQ(Robot()["state"], "driving");
 }
@@ -209,7 +218,7 @@ TEST_F(FleetStateTest, AnUnansweredStopIsToldAgainUntilItIsAnsweredOrHoldsOrIsWi
   EXPECT_TRUE(is_over()) << "it has ended";
   open();
   now_ += seconds(10);
-  EXPECT_EQ(Robot()["orders"], json({"release", "stop"})) << "silent";
+  EXPECT_EQ(Robot()["orders"], json({"release", "stop"})) << "offline";
   const auto told_at = now_;
   now_ += seconds(1);
   state_.Release(AgentId("robot1"), now_);
@@ -242,6 +251,7 @@ TEST_F(FleetStateTest, AMissionIsWhatTheRobotSaidLastWithOrdersFromWhoKnowsThem)
   Hear(Report("trip", 4, State::kFailed, "LOST"));
   EXPECT_EQ(Robot()["mission"], nullptr);
   EXPECT_EQ(Robot()["needs_person"], true);
+  EXPECT_EQ(StateOf(AgentMode::kWaiting, AgentHold::kNone, true), "failed") << "and not available";
   EXPECT_EQ(Shown()["missions"][0]["detail"], "LOST");
   Hear(Kept(Report("next", 1, State::kAccepted), 600));
   EXPECT_EQ(Robot()["needs_person"], false);

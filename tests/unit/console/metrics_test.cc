@@ -63,7 +63,7 @@ TEST_F(FleetMetricsTest, TellsOfEachRobotWhatIsKnown) {
   const std::string text = Text();
   EXPECT_THAT(text, HasSubstr("\ntrailcast_robots{state=\"driving\"} 1\n"));
   EXPECT_THAT(text, HasSubstr("\ntrailcast_robots{state=\"stopped\"} 1\n"));
-  EXPECT_THAT(text, HasSubstr("\ntrailcast_robots{state=\"silent\"} 0\n"));
+  EXPECT_THAT(text, HasSubstr("\ntrailcast_robots{state=\"offline\"} 0\n"));
   EXPECT_THAT(text, HasSubstr("trailcast_robot_info{robot=\"robot1\",role=\"follower\",software=\""
                               "0.1 \\\"beta\\\"\"} 1\n"));
   EXPECT_THAT(text, HasSubstr("trailcast_robot_state{robot=\"robot2\",state=\"stopped\"} 1\n"));
@@ -76,7 +76,7 @@ TEST_F(FleetMetricsTest, TellsOfEachRobotWhatIsKnown) {
   EXPECT_THAT(text, Not(HasSubstr("{robot=\"server\"")));
   EXPECT_THAT(text, HasSubstr("trailcast_server_heard{server=\"server\"} 1\n"));
   now_ += std::chrono::seconds(60);
-  EXPECT_THAT(Text(), HasSubstr("trailcast_robot_state{robot=\"robot1\",state=\"silent\"} 1\n"));
+  EXPECT_THAT(Text(), HasSubstr("trailcast_robot_state{robot=\"robot1\",state=\"offline\"} 1\n"));
   EXPECT_THAT(Text(), HasSubstr("trailcast_server_heard{server=\"server\"} 0\n"));
 }
 

@@ -60,13 +60,44 @@ TEST(RobotsThere, AreNeitherServersNorGoneNorWithoutEnd) {
   robots.Hear(RobotStatus("robot1"));
   EXPECT_THAT(robots.Text(), Not(HasSubstr("server")));
   robots.Hear(exchange::AgentGone{AgentId("robot1"), 6});
-  EXPECT_EQ(robots.size(), 1U) << "that was another process";
+  EXPECT_TRUE(robots.any_heard()) << "that was another process";
   robots.Hear(exchange::AgentGone{AgentId("robot1"), 7});
-  EXPECT_EQ(robots.size(), 0U);
+  EXPECT_FALSE(robots.any_heard());
+  EXPECT_THAT(robots.Text(), HasSubstr("robot1           offline"));
   for (std::size_t i = 0; i < 2 * RobotsThere::kMost; ++i) {
     robots.Hear(RobotStatus("robot" + std::to_string(i)));
   }
   EXPECT_EQ(robots.size(), RobotsThere::kMost);
+}
+
+TEST(RobotsThere, AreAsTheConsoleSaysAlsoWhereOnlyAServerKnowsThem) {
+  RobotsThere robots;
+  exchange::AgentStatus status = RobotStatus("robot1");
+  status.on_duty = true;
+  robots.Hear(status);
+  EXPECT_EQ(robots.Json()[0]["state"], "available");
+  exchange::MissionReply reply;
+  const auto add = [&](const char* robot, std::uint32_t change, mission::State state,
+                       std::int64_t sent_unix_ms) {
+    reply.missions.push_back({.mission = {.agent = AgentId(robot), .orders = "follow hall"},
+                              .last = {.agent = AgentId(robot), .change = change, .state = state},
+                              .sent_unix_ms = sent_unix_ms});
+  };
+  add("robot1", 0, mission::State::kSent, 40);
+  add("robot1", 2, mission::State::kRefused, 30);
+  add("robot1", 5, mission::State::kFailed, 20);
+  add("robot1", 4, mission::State::kUnderWay, 10);
+  add("robot2", 3, mission::State::kUnderWay, 10);
+  add("robot3", 3, mission::State::kArrived, 10);
+  robots.Hear(reply);
+  ASSERT_EQ(robots.size(), 2U) << "robot3 may have been gone for years";
+  EXPECT_EQ(robots.Json()[0]["state"], "failed") << "the newest that it has taken";
+  EXPECT_EQ(robots.Json()[1]["state"], "offline");
+  EXPECT_EQ(robots.Json()[1]["heard"], false);
+  EXPECT_THAT(robots.Text(), HasSubstr("last known on its mission 'follow hall', under way"));
+  RobotsThere only_by_a_server;
+  only_by_a_server.Hear(reply);
+  EXPECT_FALSE(only_by_a_server.any_heard());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <latch>
 #include <thread>
 
+#include "services/exchange/bounds.h"
 #include "services/exchange/in_process_exchange.h"
 
 namespace trailcast::program {
@@ -137,6 +138,14 @@ TEST_F(PresenceTest, TellsWhatItFeelsWithEachStatusAndALowBatteryInWords) {
   EXPECT_EQ(said().link_percent, std::nullopt);
   presence.Set(Status("robot1", 7, AgentMode::kWaiting));
   EXPECT_EQ(said().detail, "battery low: 19 %");
+  const std::string why(400, 'y');
+  status.detail = why;
+  presence.Set(status);
+  EXPECT_EQ(said().detail, why + "; battery low: 19 %") << "a reason is not cut off";
+  status.detail = std::string(2 * exchange::kMaxLineBytes, 'y');
+  presence.Set(status);
+  EXPECT_LE(said().detail.size(), exchange::kMaxLineBytes);
+  EXPECT_THAT(said().detail, testing::EndsWith("; battery low: 19 %"));
 }
 
 TEST_F(PresenceTest, OfSeveralServersItKnowsOneThatIsThere) {

@@ -7,7 +7,7 @@ export function Robots({ marks }: { marks: OnPlan[] }) {
   return (
     <>
       {marks.map(({ robot, x, y, heading, named }) => (
-        <g key={robot.name} className={`on-line ${robot.state}${robot.heard ? '' : ' unheard'}`}>
+        <g key={robot.name} className={`on-line ${robot.state.replace(' ', '-')}${robot.heard ? '' : ' unheard'}`}>
           <g transform={`translate(${x.toFixed(1)} ${y.toFixed(1)})`}>
             <circle r="11" />
             {robot.state === 'driving'

@@ -8,7 +8,7 @@ export type Shown = { robot: string; to: string; way: Way };
 
 // Those that would take a mission now.
 const isFree = (robot: Robot) =>
-  robot.role === 'follower' && robot.heard && !robot.mission && !['driving', 'teaching', 'ended'].includes(robot.state);
+  robot.role === 'follower' && robot.heard && !robot.mission && !['driving', 'teaching', 'shut down'].includes(robot.state);
 
 function whereOf(robot: Robot): string {
   const stands = standing(robot);

@@ -54,7 +54,7 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms }: {
   const obeys = mayOperate && robot.role === 'follower';
   const others = robot.orders.filter((each) => each !== 'stop' && !(robot.teaches && (each === 'end' || each === 'cancel')));
   const mission = robot.mission;
-  const maySend = !mission && !['driving', 'teaching', 'ended'].includes(robot.state);
+  const maySend = !mission && !['driving', 'teaching', 'shut down'].includes(robot.state);
   return (
     <article id={`robot-${robot.name}`} className={seen_ms === null ? '' : `unheard ${agedBy(now_ms - seen_ms)}`} aria-label={robot.name}>
       <header>
@@ -83,11 +83,11 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms }: {
             {each === 'send' ? 'Send …' : 'Teach …'}
           </button>
         ))}
-        {robot.state !== 'ended' && (
+        {robot.state !== 'shut down' && (
           <button aria-expanded={looking} onClick={() => setLooking(!looking)}>Camera</button>
         )}
       </div>
-      {looking && robot.state !== 'ended' && <Glance robot={robot} />}
+      {looking && robot.state !== 'shut down' && <Glance robot={robot} />}
       {obeys && open === 'send' && maySend && <Send robot={robot.name} onAnswer={sent} />}
       {obeys && open === 'teach' && maySend && <Teach robot={robot.name} onAnswer={sent} />}
       {obeys && robot.teaches && seen_ms === null && <Teaching robot={robot} onAnswer={say} />}

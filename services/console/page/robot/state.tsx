@@ -3,18 +3,15 @@ import { useContext } from 'react';
 import type { Robot, RobotState } from '../api';
 import { Lost } from '../lost';
 
-const words: Record<RobotState, string> = {
-  silent: 'Silent', stopped: 'Stopped', paused: 'Paused', starting: 'Starting', free: 'Free',
-  waiting: 'Waiting', teaching: 'Teaching', driving: 'Driving', arrived: 'Arrived', ended: 'Ended',
-  fault: 'Fault',
-};
+const capital = (state: RobotState) => state[0].toUpperCase() + state.slice(1);
 
 // A shape each, so that colour is not needed to tell them apart.
 export const shapes: Record<RobotState, string> = {
-  silent: 'M3 3 13 13M13 3 3 13', stopped: 'M5.5 2h5L14 5.5v5L10.5 14h-5L2 10.5v-5z',
-  paused: 'M4 3h3v10H4zM9 3h3v10H9z', starting: 'M8 3v5l3 3', free: 'M3 8h10',
+  offline: 'M3 3 13 13M13 3 3 13', stopped: 'M5.5 2h5L14 5.5v5L10.5 14h-5L2 10.5v-5z',
+  paused: 'M4 3h3v10H4zM9 3h3v10H9z', starting: 'M8 3v5l3 3', available: 'M3 8h10',
   waiting: 'M4 2h8L8 8l4 6H4l4-6z', teaching: 'M3 13 4 9l7-7 3 3-7 7z', driving: 'M4 2l9 6-9 6z',
-  arrived: 'M2 8l4 4 8-8', ended: 'M4 4h8v8H4z', fault: 'M8 2l7 12H1z',
+  arrived: 'M2 8l4 4 8-8', 'shut down': 'M4 4h8v8H4z', fault: 'M8 2l7 12H1z',
+  failed: 'M8 2v8M8 12v2',
 };
 
 // Where the page has lost its console, a robot's state is what it was last.
@@ -22,9 +19,9 @@ export function Badge({ state }: { state: RobotState }) {
   const lost = useContext(Lost);
   const filled = ['stopped', 'paused', 'driving', 'fault'].includes(state);
   return (
-    <span className={lost ? 'badge old' : `badge ${state}`}>
+    <span className={lost ? 'badge old' : `badge ${state.replace(' ', '-')}`}>
       <svg viewBox="0 0 16 16" aria-hidden="true" className={filled ? 'filled' : ''}><path d={shapes[state]} /></svg>
-      {lost ? `Last: ${words[state]}` : words[state]}
+      {lost ? `Last: ${capital(state)}` : capital(state)}
     </span>
   );
 }

@@ -64,7 +64,7 @@ function Marker({ mark, width }: { mark: Mark; width: number }) {
   const half = 9 + kPerMetre * Math.min(1, robot.left_sigma_m ?? 0);
   const wide = robot.name.length * kLetter;
   const name = Math.min(Math.max(wide / 2, mark.x), width - wide / 2);
-  const colour = `on-line ${robot.state}${robot.heard ? '' : ' unheard'}`;
+  const colour = `on-line ${robot.state.replace(' ', '-')}${robot.heard ? '' : ' unheard'}`;
   return (
     <g className={colour}>
       {robot.left_sigma_m && (
@@ -175,7 +175,7 @@ export function Lines({ robots }: { robots: Robot[] }) {
             {on.filter(stands).map((robot) => (
               <li key={robot.name}>
                 <a href={`#robot-${robot.name}`}>{robot.name}</a> <Badge state={robot.state} />{' '}
-                {how(robot, robot.along_m, 'm')}{robot.detail ? `: ${robot.detail}` : ''}
+                {how(robot, robot.along_m, 'm')}{robot.detail && !robot.needs_person ? `: ${robot.detail}` : ''}
               </li>
             ))}
           </ul>

@@ -1,23 +1,28 @@
-#include "services/console/src/robot_state.h"
+#include "services/fleet/robot_state.h"
 
-namespace trailcast::console {
+namespace trailcast::fleet {
 
 using exchange::AgentHold;
 using exchange::AgentMode;
 using exchange::AgentRole;
 
-RobotState RobotStateOf(const exchange::AgentStatus& status, bool silent, bool on_mission) {
-  if (silent) return RobotState::kSilent;
+RobotState RobotStateOf(const exchange::AgentStatus& status, bool offline,
+                        const mission::Report* last) {
+  // Who has said that it ends is not waited for.
+  if (offline && status.mode != AgentMode::kStopped) return RobotState::kOffline;
   const bool drives = status.mode == AgentMode::kReplaying;  // yet, for a moment
   const bool held = !drives && status.mode != AgentMode::kStopped;
   if (held && status.hold == AgentHold::kStopped) return RobotState::kStopped;
   if (held && status.hold == AgentHold::kPaused) return RobotState::kPaused;
-  const bool free = status.on_duty && !on_mission && status.segments == 0;
+  const bool on_mission = last != nullptr && !mission::HasEnded(last->state);
+  const bool available = status.on_duty && !on_mission && status.segments == 0;
+  const bool failed = last != nullptr && last->state == mission::State::kFailed;
   switch (status.mode) {
     case AgentMode::kStarting:
       return RobotState::kStarting;
     case AgentMode::kWaiting:
-      return free ? RobotState::kFree : RobotState::kWaiting;
+      if (!available) return RobotState::kWaiting;
+      return failed ? RobotState::kFailed : RobotState::kAvailable;
     case AgentMode::kTeaching:
       return RobotState::kTeaching;
     case AgentMode::kReplaying:
@@ -25,7 +30,7 @@ RobotState RobotStateOf(const exchange::AgentStatus& status, bool silent, bool o
     case AgentMode::kArrived:
       return RobotState::kArrived;
     case AgentMode::kStopped:
-      return RobotState::kEnded;
+      return RobotState::kShutDown;
     case AgentMode::kFault:
       break;
   }
@@ -48,4 +53,4 @@ const char* ToText(AgentRole role) {
   return "unknown";
 }
 
-}  // namespace trailcast::console
+}  // namespace trailcast::fleet
