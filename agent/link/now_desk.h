@@ -29,6 +29,7 @@ class NowDesk {
   void Pause(std::string text) { hold_.Pause(std::move(text)); }
   void ForgetCancelled() { hold_.ForgetCancelled(); }
   void Teaches(bool teaches) { hold_.Teaches(teaches); }
+  void Works(bool works) { hold_.Works(works); }
 
   // `route`: the name of the one that the robot is on. `unix_ms`: now, by the robot's clock.
   void Handle(const exchange::Message& message, const std::string& route, std::int64_t unix_ms);

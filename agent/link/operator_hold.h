@@ -49,6 +49,9 @@ class OperatorHold {
     hold_.ended = false;
   }
 
+  // Whether there is something that can be cancelled.
+  void Works(bool works) { works_ = works; }
+
   [[nodiscard]] const Hold& hold() const { return hold_; }
 
  private:
@@ -59,6 +62,7 @@ class OperatorHold {
   std::filesystem::path file_;
   Hold hold_;
   bool teaches_ = false;
+  bool works_ = true;
 };
 
 }  // namespace trailcast::agent

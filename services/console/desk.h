@@ -62,11 +62,11 @@ class Desk {
   [[nodiscard]] Result<std::vector<fleet::RobotsWord>> Tell(exchange::NowOrder order,
                                                             const fleet::NowTarget& target,
                                                             const std::string& reason);
-  // Its client is filled in. As fleet::SendMission: what is known of it first.
-  [[nodiscard]] Result<mission::Report> Send(mission::Mission mission);
+  // Its client is filled in. As fleet::SendMission: what is known of it first. kNotFound: neither
+  // this console nor a server has ever heard of such a robot; `also_unheard` sends it all the same.
+  [[nodiscard]] Result<mission::Report> Send(mission::Mission mission, bool also_unheard = false);
   // Passes on how a robot that teaches is to be driven, and waits for nothing.
-  [[nodiscard]] mission::DriverSeat::Verdict Drive(const AgentId& robot,
-                                                   const Driving::Word& word) {
+  [[nodiscard]] Driving::Verdict Drive(const AgentId& robot, const Driving::Word& word) {
     return driving_.Hear(robot, word, Clock::now());
   }
   // A page of what servers keep, the newest first.
@@ -109,6 +109,7 @@ class Desk {
   using Clock = std::chrono::steady_clock;
   using Seen = Result<std::shared_ptr<const exchange::Glance>>;
 
+  [[nodiscard]] std::optional<Error> Unknown(const AgentId& robot);
   [[nodiscard]] Result<exchange::MissionReply> AskHistory(exchange::MissionRequest request);
   void Run();
   void ServeUntilClosed();

@@ -21,6 +21,9 @@ class Driving {
   using Time = mission::DriverSeat::Time;
   // Robots' names come from strangers: more are not kept.
   static constexpr std::size_t kMostRobots = 256;
+  static constexpr std::size_t kMostHeard = 1024;
+  // Who was not heard for so long hears nothing either.
+  static constexpr std::chrono::seconds kHeardWithin{10};
 
   struct Word {
     double linear_mps = 0.0;
@@ -28,13 +31,23 @@ class Driving {
     std::string driver{};       // a page, or a program
     std::uint64_t said_ms = 0;  // by its own clock
   };
-  [[nodiscard]] mission::DriverSeat::Verdict Hear(const AgentId& robot, const Word& word, Time now);
+  // What a robot says of itself.
+  void Note(const exchange::AgentStatus& status, Time now);
+
+  enum class Verdict { kGood, kLate, kTaken, kUnknown, kTeachesNothing };
+  // kUnknown: no robot of this name is heard.
+  [[nodiscard]] Verdict Hear(const AgentId& robot, const Word& word, Time now);
 
   // What robots are to be told: of each the latest, once.
   [[nodiscard]] std::vector<exchange::DriveCommand> Take(const AgentId& self);
 
  private:
   std::mutex mutex_;
+  struct Robot {
+    bool teaches = false;
+    Time heard_at{};
+  };
+  NewestMap<AgentId, Robot> robots_{kMostHeard};
   NewestMap<AgentId, mission::DriverSeat> seats_{kMostRobots};
   std::map<AgentId, exchange::DriveCommand> waiting_;
 };

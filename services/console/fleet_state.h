@@ -48,6 +48,9 @@ class FleetState {
   // Who has fallen silent meanwhile, and which routes robots are on.
   void Tick(Time now);
   [[nodiscard]] bool Teaches(const AgentId& robot) const;
+  // Whether it was heard, or said by what it does to be there; and all who were.
+  [[nodiscard]] bool Knows(const AgentId& robot) const;
+  [[nodiscard]] std::vector<std::string> Robots() const;
   struct Known {
     AgentId robot{};
     std::string last_seen{};  // as fleet::LastSeenText

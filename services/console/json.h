@@ -23,6 +23,7 @@ struct SendBody {
   std::string id;  // empty: to be drawn
   std::uint32_t valid_s = 600;
   bool goes_on = false;
+  bool unheard = false;  // also a robot that nobody has heard of
 };
 [[nodiscard]] Result<SendBody> ReadSend(const std::string& body);
 

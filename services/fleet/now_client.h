@@ -24,6 +24,7 @@ struct RobotsWord {
   bool answered = false;
   bool refused = false;
   std::string detail{};  // its own words; of one that did not answer, what is known of it last
+  bool known = true;     // false: nobody of this name was ever heard
 };
 
 // What became of a command that several robots were given: the worst that became of it anywhere.

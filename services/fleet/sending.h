@@ -4,11 +4,17 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "services/base/result.h"
 #include "services/exchange/messages.h"
 
 namespace trailcast::fleet {
+
+// kNotFound, and which of `robots` may have been meant.
+[[nodiscard]] Error UnknownRobot(const std::string& name, std::vector<std::string> robots);
+// Of one robot: whether it was ever there to take one.
+[[nodiscard]] bool HasTakenAny(const std::vector<mission::Record>& missions);
 
 // What is heard of one mission that was sent. No I/O, no clock: the mission is to be published,
 // again and again, while everything that is heard goes to Hear.
@@ -19,8 +25,9 @@ class Sending {
   [[nodiscard]] const mission::Mission& mission() const { return mission_; }
   // Whether that was news of it.
   bool Hear(const exchange::Message& message);
-  // It is known what becomes of it at first: the robot has answered, or did not while a server
-  // keeps it, or neither within `timeout`.
+  // It is known what becomes of it at first: the robot does it or has refused it, or has taken it
+  // and not refused it for a while, or did not answer while a server keeps it, or neither within
+  // `timeout`.
   [[nodiscard]] bool Answered(std::chrono::milliseconds since,
                               std::chrono::milliseconds timeout) const;
   // How long to wait before it is said again: what was lost is said soon, and while it is watched a

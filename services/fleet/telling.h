@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ class Telling {
   // A robot that this is meant for is waited for and named, heard or not: `last_known` says in a
   // line what was last known of it.
   void Expect(const std::string& robot, const std::string& last_known);
+  // A robot of this name there is, meant or not.
+  void Note(const std::string& robot) { names_.insert(robot); }
   // The same of one that a server has on a mission, if it is meant.
   void Expect(const mission::Record& record);
   // All are named; else, of a route or of all, it has to be found out who there is.
@@ -39,6 +42,7 @@ class Telling {
   std::vector<NowTarget> targets_;
   std::vector<exchange::NowCommand> commands_;
   std::map<std::string, RobotsWord> words_;
+  std::set<std::string> names_;
 };
 
 }  // namespace trailcast::fleet

@@ -54,6 +54,7 @@ void Duty::Hear(const exchange::Message& message) {
   if (question_) question_->Hear(message);
   if (following_) return;
   const bool teaches = hands_ != nullptr;
+  now_desk_.Works(desk_.current().has_value());
   now_desk_.Handle(message, teaches ? on_route_ : "", NowUnixMs());
   if (!teaches) return;
   hands_->Tell(now_desk_.hold());
@@ -188,7 +189,7 @@ Result<void> Duty::Run() {
       Work();
     } else {
       next_.reset();
-      now_desk_.ForgetCancelled();  // there was nothing to cancel
+      now_desk_.ForgetCancelled();
       if (undelivered_ && presence_.server() && steady_clock::now() >= deliver_at_) Deliver();
     }
   }

@@ -85,8 +85,9 @@ OperatorHold::Obeyed OperatorHold::Obey(const exchange::NowCommand& command, con
       hold_.text.clear();
       return {false, "drives on"};
     case NowOrder::kCancel:
+      if (!works_) return {true, "has no mission to cancel"};
       hold_.cancelled = true;
-      return {false, "ends what it does, cancelled by " + by + why};
+      return {false, (teaches_ ? "teaching discarded by " : "mission cancelled by ") + by + why};
     case NowOrder::kStop:
       return Stop(fmt::format("stopped by {} {}{}", by, MomentText(unix_ms), why));
     case NowOrder::kRelease:

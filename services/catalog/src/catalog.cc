@@ -1,6 +1,6 @@
 #include "services/catalog/catalog.h"
 
-#include "services/catalog/src/similar_names.h"
+#include "services/base/similar_names.h"
 #include "services/exchange/bounds.h"
 
 namespace trailcast::catalog {

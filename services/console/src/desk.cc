@@ -46,6 +46,7 @@ class TellErrand final : public ErrandFor<std::vector<fleet::RobotsWord>> {
         telling_.Expect(robot.value(), last_seen);
       }
     }
+    for (const std::string& robot : state.Robots()) telling_.Note(robot);
     if (order() == exchange::NowOrder::kRelease) state.Release(AgentId(target_.name), now);
   }
   [[nodiscard]] bool IsOver(milliseconds since) const override {
@@ -93,6 +94,28 @@ class SendErrand final : public ErrandFor<mission::Report> {
 
   fleet::Sending sending_;
   milliseconds timeout_;
+};
+
+// A mission's first step: whether there is such a robot.
+class WhoErrand final : public ErrandFor<std::optional<Error>> {
+ public:
+  explicit WhoErrand(AgentId robot) : robot_(std::move(robot)) {}
+
+  [[nodiscard]] std::vector<exchange::Message> Words() const override { return {}; }
+  void Hear(const exchange::Message& /*message*/) override {}
+  void Begin(FleetState& state, std::chrono::steady_clock::time_point /*now*/) override {
+    // In a star no robot is heard at all.
+    const std::vector<std::string> robots = state.Robots();
+    if (state.Knows(robot_) || robots.empty()) return;
+    unknown_ = fleet::UnknownRobot(robot_.value(), robots);
+  }
+  [[nodiscard]] bool IsOver(milliseconds /*since*/) const override { return true; }
+
+ private:
+  [[nodiscard]] Result<std::optional<Error>> Outcome() const override { return unknown_; }
+
+  AgentId robot_;
+  std::optional<Error> unknown_;
 };
 
 // One of servers, over when the first has answered.
@@ -220,7 +243,21 @@ Result<std::vector<fleet::RobotsWord>> Desk::Tell(exchange::NowOrder order,
       order == exchange::NowOrder::kStop, options_.answer_within);
 }
 
-Result<mission::Report> Desk::Send(mission::Mission mission) {
+// Of whom nobody has heard here a server may have heard.
+std::optional<Error> Desk::Unknown(const AgentId& robot) {
+  auto unknown = CarryOut(std::make_shared<WhoErrand>(robot), false, milliseconds(0));
+  if (!unknown || !*unknown) return std::nullopt;
+  mission::Query of_robot;
+  of_robot.agent = robot.value();
+  const auto missions = Missions(of_robot);
+  if (!missions || fleet::HasTakenAny(missions->missions)) return std::nullopt;
+  return *std::move(*unknown);
+}
+
+Result<mission::Report> Desk::Send(mission::Mission mission, bool also_unheard) {
+  if (!also_unheard) {
+    if (auto unknown = Unknown(mission.agent)) return tl::unexpected(*std::move(unknown));
+  }
   mission.client = self_;
   return CarryOut(std::make_shared<SendErrand>(std::move(mission), options_.reply_within), false,
                   options_.reply_within);
@@ -413,6 +450,8 @@ void Desk::Say(Clock::time_point now) {
 
 void Desk::Hear(const exchange::Message& message, Clock::time_point now) {
   state_.Handle(message, now, NowUnixMs());
+  if (const auto* status = std::get_if<exchange::AgentStatus>(&message))
+    driving_.Note(*status, now);
   for (const auto& errand : errands_) errand->Hear(message);
 }
 

@@ -99,6 +99,21 @@ void FleetState::On(const exchange::NowAnswer& answer) {
   if (answer.client == stop.client && answer.number == stop.number) agent->open_stop.reset();
 }
 
+bool FleetState::Knows(const AgentId& robot) const {
+  return agents_.Find(robot) != nullptr ||
+         std::any_of(missions_.begin(), missions_.end(), [&](const auto& each) {
+           return each.first.first == robot && each.second.last.change > 0;
+         });
+}
+
+std::vector<std::string> FleetState::Robots() const {
+  std::vector<std::string> robots;
+  for (const auto& [name, agent] : agents_) {
+    if (agent.status.role == AgentRole::kFollower) robots.push_back(name.value());
+  }
+  return robots;
+}
+
 std::vector<FleetState::Known> FleetState::MayMove(Time now) const {
   std::vector<Known> known;
   for (const auto& [name, agent] : agents_) {

@@ -122,7 +122,9 @@ std::string StandText(const std::vector<RobotsWord>& words) {
       continue;
     }
     others += fmt::format("{}{} {}{}", others.empty() ? "" : "; ", word.robot,
-                          word.answered ? "does not obey: " : "did not answer and may be moving",
+                          word.answered ? "does not obey: "
+                          : word.known  ? "did not answer and may be moving"
+                                        : "did not answer",
                           word.answered         ? word.detail
                           : word.detail.empty() ? ""
                                                 : " (" + word.detail + ")");

@@ -1,8 +1,11 @@
 #include "services/fleet/sending.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <variant>
 
+#include "services/base/similar_names.h"
 #include "services/base/time.h"
 
 namespace trailcast::fleet {
@@ -12,10 +15,25 @@ using std::chrono::milliseconds;
 
 // A robot that is there has answered by then.
 constexpr milliseconds kRobotAnswers{3000};
+// What it has accepted it may yet refuse, as where no route is called so: that takes so long.
+constexpr milliseconds kRobotDecides{3000};
 constexpr milliseconds kAgain{200};
 constexpr milliseconds kAgainWatched{2000};
 
 }  // namespace
+
+Error UnknownRobot(const std::string& name, std::vector<std::string> robots) {
+  return {
+      ErrorCode::kNotFound,
+      fmt::format("no robot '{}' is known: neither is one heard, nor has a server ever heard of "
+                  "it{}",
+                  name, DidYouMean(name, std::move(robots)))};
+}
+
+bool HasTakenAny(const std::vector<mission::Record>& missions) {
+  return std::any_of(missions.begin(), missions.end(),
+                     [](const mission::Record& record) { return record.last.change > 0; });
+}
 
 bool Sending::Hear(const exchange::Message& message) {
   const auto* report = std::get_if<mission::Report>(&message);
@@ -34,8 +52,17 @@ bool Sending::Hear(const exchange::Message& message) {
 
 bool Sending::Answered(milliseconds since, milliseconds timeout) const {
   if (!last_) return since > timeout;
-  if (last_->state != mission::State::kSent) return true;
-  return since > std::min(kRobotAnswers, timeout);
+  switch (last_->state) {
+    case mission::State::kSent:
+      return since > std::min(kRobotAnswers, timeout);
+    case mission::State::kAccepted:
+      return since > std::min(kRobotDecides, timeout);
+    case mission::State::kFetching:
+      return last_->waits_for != mission::WaitsFor::kNothing ||
+             since > std::min(kRobotDecides, timeout);
+    default:
+      return true;
+  }
 }
 
 milliseconds Sending::SayAgain() const { return last_ ? kAgainWatched : kAgain; }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "services/base/similar_names.h"
 #include "services/fleet/draw.h"
 #include "services/mission/orders.h"
 
@@ -17,6 +18,9 @@ using std::chrono::milliseconds;
 
 // Whoever joins has heard of all who are there by then, usually.
 constexpr milliseconds kAllAreHeard{1500};
+
+// Strangers can make names up.
+constexpr std::size_t kMostNames = 1024;
 
 }  // namespace
 
@@ -41,6 +45,7 @@ void Telling::Hear(const exchange::Message& message) {
   } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     const bool ended = status->mode == exchange::AgentMode::kStopped;
     const std::string& robot = status->agent.value();
+    if (status->role == exchange::AgentRole::kFollower && names_.size() < kMostNames) Note(robot);
     const auto known = words_.find(robot);
     // Who has ended stands. Who is only heard no more, as when it was killed, may not.
     if (ended && known != words_.end() && !known->second.answered && !IsNamed(robot)) {
@@ -83,7 +88,14 @@ bool Telling::AllAnswered(milliseconds since) const {
 
 std::vector<RobotsWord> Telling::Words() const {
   std::vector<RobotsWord> words;
-  for (const auto& [name, word] : words_) words.push_back(word);
+  for (const auto& [name, word] : words_) {
+    words.push_back(word);
+    RobotsWord& last = words.back();
+    last.known = word.answered || names_.contains(name) || !word.detail.empty();
+    if (last.known) continue;
+    last.detail = "no robot of this name was heard" +
+                  DidYouMean(name, std::vector<std::string>(names_.begin(), names_.end()));
+  }
   return words;
 }
 

@@ -15,6 +15,12 @@ struct Command {
   std::function<int()> run;
 };
 
+// As program::Complain, of words that were typed wrongly; returns kExitUsage.
+inline int ComplainOfUsage(const CLI::App& app, const Error& error) {
+  (void)program::Complain(app, error);
+  return program::kExitUsage;
+}
+
 // Each adds its flags to `parent`. `common` is filled by the time the command runs, and outlives
 // it.
 [[nodiscard]] Command AddAlignCommand(CLI::App& parent);

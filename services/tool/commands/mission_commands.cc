@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "services/base/time.h"
 #include "services/base/unix_time.h"
@@ -13,6 +14,7 @@
 #include "services/fleet/mission_client.h"
 #include "services/fleet/network_client.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/sending.h"
 #include "services/mission/orders.h"
 #include "services/network/words.h"
 #include "services/program/json.h"
@@ -35,10 +37,14 @@ struct SendOptions {
   std::string from;  // of goto; empty: where the robot stands
   double valid_s = 600.0;
   bool goes_on = false;
+  bool unheard = false;
   bool wait = false;
   bool json = false;
   double timeout_s = 5.0;
 };
+
+// Whoever has just joined has heard of all who are there by then, usually.
+constexpr std::chrono::milliseconds kAllAreHeard{1500};
 
 constexpr const char* kSendExamples =
     "Orders, one after the other:\n"
@@ -73,7 +79,39 @@ constexpr const char* kSendExamples =
     "A server keeps what a robot cannot hear yet. A robot does one mission at a time; 'trailcast\n"
     "cancel robot1' ends it, and 'trailcast stop robot1' has it stand at once.\n"
     "Exit status: 0 taken, or kept by a server (with --wait: arrived); 1 refused, put off "
-    "by servers, or nobody\nanswered (with --wait: not arrived); 2 wrong usage.";
+    "by servers, nobody\nanswered, or no such robot is known (with --wait: not arrived); 2 wrong "
+    "usage, also of orders.";
+
+// Nothing where it is heard, or a server has heard of it; nor where no robot is heard at all, as in
+// a star.
+std::optional<Error> Unknown(fleet::OperatorPeer& peer, const std::string& robot) {
+  using std::chrono::steady_clock;
+  exchange::MissionRequest question{.client = peer.self, .request = fleet::DrawNumber()};
+  question.query.agent = robot;
+  std::set<std::string> robots;
+  bool asked_in_vain = false;
+  const auto until = steady_clock::now() + kAllAreHeard;
+  auto ask_at = steady_clock::now();
+  while (steady_clock::now() < until) {
+    if (steady_clock::now() >= ask_at) {
+      ask_at += kAllAreHeard / 3;
+      (void)peer.exchange->Publish(question);
+    }
+    for (const exchange::Message& message : peer.exchange->Take(std::chrono::milliseconds(20))) {
+      const auto* status = std::get_if<exchange::AgentStatus>(&message);
+      if (status != nullptr && status->role == exchange::AgentRole::kFollower) {
+        if (status->agent.value() == robot) return std::nullopt;
+        robots.insert(status->agent.value());
+      }
+      const auto* reply = std::get_if<exchange::MissionReply>(&message);
+      if (reply == nullptr || reply->client != peer.self) continue;
+      if (fleet::HasTakenAny(reply->missions)) return std::nullopt;
+      asked_in_vain = true;
+    }
+  }
+  if (robots.empty() || !asked_in_vain) return std::nullopt;
+  return fleet::UnknownRobot(robot, {robots.begin(), robots.end()});
+}
 
 // Where it is to go, if that is what it is sent to.
 Result<std::optional<std::string>> GoalOf(const SendOptions& options) {
@@ -109,24 +147,30 @@ Result<std::string> OrdersTo(const std::string& goal, const fleet::OperatorPeer&
 
 int Send(const CLI::App& app, const program::CommonOptions& common, const SendOptions& options) {
   const auto goal = GoalOf(options);
-  if (!goal) return program::Complain(app, goal.error());
+  if (!goal) return ComplainOfUsage(app, goal.error());
   mission::Mission mission{.agent = AgentId(options.robot),
                            .id = options.id.empty() ? fleet::DrawMissionId() : options.id,
                            .orders = fmt::format("{}", fmt::join(options.orders, " ")),
                            .valid_for_s = static_cast<std::uint32_t>(options.valid_s),
                            .goes_on = options.goes_on};
   if (const auto tasks = mission::ParseOrders(mission.orders); !*goal && !tasks) {
-    return program::Complain(app, tasks.error());
+    return ComplainOfUsage(app, tasks.error());
   }
   const program::StopSignal stop;
   exchange::TopicUse use = exchange::SenderTopics();
-  if (*goal) {
-    const exchange::TopicUse asking = exchange::NetworkTopics();
-    use.write.insert(use.write.end(), asking.write.begin(), asking.write.end());
-    use.read.insert(use.read.end(), asking.read.begin(), asking.read.end());
-  }
-  const auto peer = fleet::JoinAsOperator(common, use);
+  const auto and_also = [&](const exchange::TopicUse& more) {
+    use.write.insert(use.write.end(), more.write.begin(), more.write.end());
+    use.read.insert(use.read.end(), more.read.begin(), more.read.end());
+  };
+  and_also(exchange::HistoryTopics());
+  if (*goal) and_also(exchange::NetworkTopics());
+  auto peer = fleet::JoinAsOperator(common, use);
   if (!peer) return program::Complain(app, peer.error());
+  if (const auto unknown = options.unheard ? std::nullopt : Unknown(*peer, options.robot)) {
+    return program::Complain(app,
+                             {unknown->code, unknown->message + "; --unheard has a server keep "
+                                                                "it all the same"});
+  }
   mission.client = peer->self;
   if (*goal) {
     auto orders = OrdersTo(**goal, *peer, options);
@@ -269,6 +313,8 @@ Command AddSend(CLI::App& parent, const program::CommonOptions& common) {
   app->add_flag("--goes-on", options->goes_on,
                 "It goes on by itself after its agent has started again; without, it stands then "
                 "until it is told to resume");
+  app->add_flag("--unheard", options->unheard,
+                "Also a robot that nobody has ever heard of: a server keeps it until it is there");
   app->add_flag("--wait", options->wait, "Until it has ended; tells what becomes of it meanwhile");
   app->add_flag("--json", options->json, "For programs: what is known of it in the end");
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for an answer")

@@ -125,19 +125,19 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
   // Before anybody is asked, what no server would understand.
   if (!Asks(options)) {
     if (const auto edit = network::ParseEdit(words); !edit) {
-      return program::Complain(app, edit.error());
+      return ComplainOfUsage(app, edit.error());
     }
   } else if (AsksWhatPasses(options)) {
     if (const auto place = CheckPlace(options); !place) {
-      return program::Complain(app, place.error());
+      return ComplainOfUsage(app, place.error());
     }
   } else if (!AsksForAll(options)) {
     if (const auto question = network::ParseQuestion(words); !question) {
-      return program::Complain(app, question.error());
+      return ComplainOfUsage(app, question.error());
     }
   }
   if (!options.plot.empty() && !words.empty()) {
-    return program::Complain(
+    return ComplainOfUsage(
         app, {ErrorCode::kInvalidArgument, "--plot draws all there is: no words beside it"});
   }
   const auto peer = fleet::JoinAsOperator(

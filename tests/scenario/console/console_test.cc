@@ -82,12 +82,22 @@ TEST_F(ConsoleTest, WhatIsWrongIsSaidAndWhoFallsSilentStaysListed) {
   ASSERT_TRUE(WaitForState("available")) << State().dump(2);
   EXPECT_EQ(Post("/api/robots/robot1/missions", {{"orders", "dance"}}).status, 400);
   const Replied unknown = Post("/api/robots/robot1/missions", {{"orders", "follow attic"}});
-  EXPECT_THAT(unknown.status, testing::AnyOf(200, 409)) << unknown.body.dump();
+  EXPECT_EQ(unknown.status, 409) << unknown.body.dump();
+  EXPECT_THAT(unknown.body["detail"].get<std::string>(), HasSubstr("attic"));
   EXPECT_TRUE(WaitUntil([&] {
     const std::string detail = Robot1().value("detail", "");
     return detail.find("refused") != detail.npos && detail.find("attic") != detail.npos;
   })) << State().dump(2);
-  EXPECT_EQ(Post("/api/robots/robot7/pause").status, 504);
+  const Replied nothing = Post("/api/robots/robot1/cancel");
+  EXPECT_EQ(nothing.status, 409) << nothing.body.dump();
+  EXPECT_EQ(nothing.body["detail"], "has no mission to cancel");
+  EXPECT_EQ(Post("/api/robots/robot7/pause").status, 404);
+  const Replied nobody = Post("/api/robots/robot7/missions", {{"orders", "follow hall"}});
+  EXPECT_EQ(nobody.status, 404) << nobody.body.dump();
+  EXPECT_THAT(nobody.body["error"].get<std::string>(), HasSubstr("did you mean 'robot1'?"));
+  const Ended sent = End(*Start("trailcast", {"send", "robot7", "follow", "hall"}, "send-nobody"));
+  EXPECT_EQ(sent.status, 1) << sent.output;
+  EXPECT_THAT(sent.output, HasSubstr("did you mean 'robot1'?"));
   EXPECT_EQ(Post("/api/robots/robot1/dance").status, 404);
   EXPECT_EQ(Post("/api/robots/robot1/missions", {{"orders", "wait 600"}, {"id", "long"}}).status,
             200);

@@ -44,7 +44,9 @@ TEST_F(MissionsTest, ARobotOnDutyFollowsWhatItIsSentAlong) {
   const Ended again = Send({"follow", "hall", "..2", "wait", "0.5", "--id", "first"});
   EXPECT_EQ(again.status, 0) << again.output;
   EXPECT_THAT(again.output, HasSubstr("robot1: arrived")) << "it is done once";
-  EXPECT_EQ(Tool({"cancel", "robot1"}).status, 0) << "of nothing: what comes next is done";
+  const Ended nothing = Tool({"cancel", "robot1"});
+  EXPECT_EQ(nothing.status, 1) << nothing.output;
+  EXPECT_THAT(nothing.output, HasSubstr("has no mission to cancel"));
   const Ended rest = Send({"follow", "hall", "2..", "--wait"});
   EXPECT_EQ(rest.status, 0) << rest.output << agent_->output();
   EXPECT_NEAR(Along_m("truth.csv"), 4.5, 0.25);
@@ -73,8 +75,8 @@ TEST_F(MissionsTest, ASecondOneAndOnesThatCannotBeDoneAreRefusedInWords) {
   EXPECT_THAT(Missions({"--state", "cancelled"}).output,
               AllOf(HasSubstr("long"), Not(HasSubstr("attic"))));
   EXPECT_THAT(Missions({"--commands"}).output,
-              AllOf(HasSubstr("operator  cancel   robot1"), HasSubstr("cancelled by operator")));
-  EXPECT_EQ(Send({"dance"}).status, 1);
+              AllOf(HasSubstr("operator  cancel   robot1"), HasSubstr("mission cancelled by operator")));
+  EXPECT_EQ(Send({"dance"}).status, 2);
 }
 
 TEST_F(MissionsTest, APausedMissionGoesOnAndNothingMovesByItselfAfterARestart) {

@@ -152,6 +152,63 @@ TEST_F(DeskTest, AStopToAllNamesWhoIsSilentAndIsSaidUntilItAnswers) {
               "that it is stopped");
 }
 
+TEST_F(DeskTest, ARobotThatNobodyHasHeardOfIsSentNowhere) {
+  const auto server = bus_.Open(exchange::ServerTopics());
+  exchange::AgentStatus status;
+  status.agent = AgentId("robot1");
+  status.role = exchange::AgentRole::kFollower;
+  ASSERT_TRUE(robot_->Publish(status));
+  test::Await(
+      [&] {
+        const auto news = desk_.See(0, test::kLongEnough);
+        return news && !(*news->state)["robots"].empty();
+      },
+      "the robot");
+  int sent = 0;
+  bool has_heard_of_it = false;
+  const auto send = [&](bool also_unheard) {
+    auto report = std::async(std::launch::async, [&] {
+      return desk_.Send({.agent = AgentId("robot7"), .id = "trip", .orders = "wait 1"},
+                        also_unheard);
+    });
+    test::Await(
+        [&] {
+          for (const exchange::Message& message : server->Take(milliseconds(10))) {
+            if (const auto* asked = std::get_if<exchange::MissionRequest>(&message)) {
+              exchange::MissionReply reply{
+                  .server = AgentId("barn"), .client = asked->client, .request = asked->request};
+              if (has_heard_of_it && asked->query.agent == "robot7") {
+                reply.missions.push_back(
+                    {.mission = {.agent = AgentId("robot7"),
+                                 .id = "earlier",
+                                 .client = AgentId("other"),
+                                 .orders = "wait 1"},
+                     .last = {.agent = AgentId("robot7"), .mission = "earlier", .change = 1}});
+              }
+              EXPECT_TRUE(server->Publish(reply));
+            } else if (const auto* mission = std::get_if<mission::Mission>(&message)) {
+              ++sent;
+              EXPECT_TRUE(server->Publish(mission::Report{.agent = mission->agent,
+                                                          .mission = mission->id,
+                                                          .state = mission::State::kRefused,
+                                                          .relayed = true}));
+            }
+          }
+          return report.wait_for(milliseconds(0)) == std::future_status::ready;
+        },
+        "an answer to the mission");
+    return report.get();
+  };
+  const auto nobody = send(false);
+  ASSERT_FALSE(nobody);
+  EXPECT_EQ(nobody.error().code, ErrorCode::kNotFound);
+  EXPECT_THAT(nobody.error().message, HasSubstr("did you mean 'robot1'?"));
+  EXPECT_EQ(sent, 0);
+  EXPECT_TRUE(send(true)) << "whoever asks for that";
+  has_heard_of_it = true;
+  EXPECT_TRUE(send(false)) << "it is out of reach";
+}
+
 TEST_F(DeskTest, AMissionThatAServerPutsOffIsSentAgain) {
   const auto server = bus_.Open(exchange::ServerTopics());
   auto sent = std::async(std::launch::async, [&] {

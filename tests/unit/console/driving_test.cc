@@ -9,10 +9,20 @@ namespace {
 using std::chrono::milliseconds;
 using testing::IsEmpty;
 using testing::SizeIs;
-using Verdict = mission::DriverSeat::Verdict;
+using Verdict = Driving::Verdict;
 
 class DrivingTest : public testing::Test {
  protected:
+  DrivingTest() {
+    for (const char* robot : {"robot1", "robot2"}) Hear(robot, exchange::AgentMode::kTeaching);
+  }
+  void Hear(const std::string& robot, exchange::AgentMode mode) {
+    exchange::AgentStatus status;
+    status.agent = AgentId(robot);
+    status.role = exchange::AgentRole::kFollower;
+    status.mode = mode;
+    driving_.Note(status, now_);
+  }
   Verdict Say(const std::string& robot, double linear_mps, std::uint64_t said_ms,
               const std::string& driver = "ann") {
     return driving_.Hear(AgentId(robot), {linear_mps, 0.0, driver, said_ms}, now_);
@@ -53,6 +63,15 @@ TEST_F(DrivingTest, OfTwoPagesTheFirstDrives) {
   EXPECT_EQ(Say("robot2", 0.9, 6, "bob"), Verdict::kGood);
   now_ += milliseconds(1000);
   EXPECT_EQ(Say("robot1", 0.9, 1005, "bob"), Verdict::kGood);
+}
+
+TEST_F(DrivingTest, WhoIsNotThereOrTeachesNothingIsNotDriven) {
+  EXPECT_EQ(Say("robot9", 0.1, 1000), Verdict::kUnknown);
+  Hear("robot2", exchange::AgentMode::kWaiting);
+  EXPECT_EQ(Say("robot2", 0.1, 1000), Verdict::kTeachesNothing);
+  now_ += Driving::kHeardWithin + milliseconds(1);
+  EXPECT_EQ(Say("robot1", 0.1, 1000), Verdict::kUnknown) << "it is heard no more";
+  EXPECT_THAT(Take(), IsEmpty());
 }
 
 }  // namespace

@@ -176,7 +176,21 @@ TEST_F(NowClientTest, SaysItAgainUntilItIsAnswered) {
 TEST_F(NowClientTest, WhoIsNamedAndNotThereDidNotAnswer) {
   const auto words = Tell({{NowWhom::kRobot, "nobody"}}, milliseconds(300));
   ASSERT_TRUE(words);
-  EXPECT_EQ(WordsText(*words), "nobody: did not answer\n");
+  EXPECT_EQ(WordsText(*words), "nobody: did not answer: no robot of this name was heard\n");
+  EXPECT_FALSE(words->front().known);
+}
+
+TEST_F(NowClientTest, WhoseNameWasMistypedIsToldWhatItMayHaveBeen) {
+  Robot("robot1", "hall", true);
+  std::vector<RobotsWord> words;
+  test::Await(
+      [&] {
+        words = Tell({{NowWhom::kRobot, "robot1"}, {NowWhom::kRobot, "robto1"}}, milliseconds(300))
+                    .value_or(std::vector<RobotsWord>{});
+        return words.size() == 2 && words[0].answered && !words[1].detail.ends_with("heard");
+      },
+      "the robot to be heard");
+  EXPECT_EQ(words[1].detail, "no robot of this name was heard; did you mean 'robot1'?");
 }
 
 TEST_F(NowClientTest, TakesNoAnswerToWhatAnotherProcessOfItsNameSaid) {
@@ -192,7 +206,7 @@ TEST_F(NowClientTest, TakesNoAnswerToWhatAnotherProcessOfItsNameSaid) {
   ending_ = true;
   other.join();
   ASSERT_TRUE(words);
-  EXPECT_EQ(WordsText(*words), "robot1: did not answer\n");
+  EXPECT_EQ(WordsText(*words), "robot1: did not answer: no robot of this name was heard\n");
 }
 
 TEST_F(NowClientTest, WhereNobodyIsHeardThatIsSaid) {

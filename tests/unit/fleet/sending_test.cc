@@ -52,7 +52,17 @@ TEST_F(SendingTest, WhatIsTakenAfterwardsIsSent) {
 
 TEST_F(SendingTest, ARobotThatTakesItNeedsNoServer) {
   (void)Hear(0, State::kPutOff, "over quota");
+  EXPECT_TRUE(Hear(1, State::kUnderWay));
+  EXPECT_TRUE(sending_.Answered(kSoon, kTimeout));
+}
+
+TEST_F(SendingTest, WhatIsAcceptedMayBeRefusedYet) {
   EXPECT_TRUE(Hear(1, State::kAccepted));
+  EXPECT_FALSE(sending_.Answered(kSoon, kTimeout));
+  EXPECT_TRUE(Hear(2, State::kFetching));
+  EXPECT_FALSE(sending_.Answered(kSoon, kTimeout)) << "it looks whether there is such a route";
+  EXPECT_TRUE(sending_.Answered(kLate, kTimeout)) << "a long route is long in coming";
+  EXPECT_TRUE(Hear(3, State::kRefused, "there is no route 'nowhere'"));
   EXPECT_TRUE(sending_.Answered(kSoon, kTimeout));
 }
 

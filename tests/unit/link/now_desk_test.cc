@@ -121,6 +121,16 @@ TEST_F(NowDeskTest, CancellingEndsWhatItDoesAndReleasesNothing) {
   EXPECT_TRUE(std::filesystem::exists(File()));
 }
 
+TEST_F(NowDeskTest, WhereNothingIsToBeCancelledThatIsSaid) {
+  EXPECT_EQ(Obeyed(NowOrder::kCancel).detail, "mission cancelled by desk");
+  desk_.ForgetCancelled();
+  desk_.Works(false);
+  const NowAnswer answer = Tell(NowOrder::kCancel);
+  EXPECT_TRUE(answer.refused);
+  EXPECT_EQ(answer.detail, "has no mission to cancel");
+  EXPECT_FALSE(desk_.hold().cancelled);
+}
+
 TEST_F(NowDeskTest, ACommandIsObeyedOnceAndAnsweredEachTime) {
   const NowCommand pause{.client = AgentId("desk-p77"), .number = 1, .order = NowOrder::kPause};
   const NowAnswer first = Say(pause);

@@ -66,7 +66,10 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms }: {
       </header>
       {seen_ms !== null && <p className="last-heard">Last seen {age(now_ms - seen_ms)} ago; data below is stale.</p>}
       {robot.detail && robot.detail !== robot.state && <p className="detail">{robot.detail}</p>}
-      {robot.route && !robot.teaches && <Strip robot={robot} />}
+      {robot.route && !robot.teaches && robot.route_id && <Strip robot={robot} />}
+      {robot.route && !robot.teaches && !robot.route_id && (
+        <p className="note">Route {robot.route}: it has not found its place there yet.</p>
+      )}
       <Vitals robot={robot} />
       {mission && (
         <p className="mission">

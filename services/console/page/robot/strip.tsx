@@ -149,19 +149,12 @@ export function Legend() {
 export function Lines({ robots }: { robots: Robot[] }) {
   const routes = new Map<string, Robot[]>();
   for (const robot of robots) {
-    if (!robot.route) continue;
+    // One that has not found itself on its route yet may be anywhere, or there may be no such route.
+    if (!robot.route || !(robot.route_id || robot.teaches)) continue;
     const key = robot.route_id ? `${robot.route_id} ${robot.teaching}` : robot.route;
     const others = routes.get(key);
     if (others) others.push(robot);
     else routes.set(key, [robot]);
-  }
-  // Who has not found itself yet is on the route of this name, if there is but one.
-  for (const [key, lost] of routes) {
-    if (lost[0].route_id) continue;
-    const same = [...routes].filter(([other, on]) => other !== key && on[0].route === key);
-    if (same.length !== 1) continue;
-    same[0][1].push(...lost);
-    routes.delete(key);
   }
   if (routes.size === 0) return null;
   return (

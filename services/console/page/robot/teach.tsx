@@ -187,6 +187,7 @@ export function Teaching({ robot, onAnswer }: { robot: Robot; onAnswer: (answer:
         <div>
           <p>
             {held ? 'It is held, and stands until it is told to resume.'
+              : drives && told ? 'It is not driven from here.'
               : drives ? 'You drive. Let go and it stands.'
               : 'Put your thumb on the pad, or click it and hold W A S D or the arrow keys. Or drive the robot by its own joystick.'}
           </p>

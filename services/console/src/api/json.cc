@@ -99,7 +99,7 @@ std::string ReasonIfAny(const std::string& body) {
 }
 
 Result<SendBody> ReadSend(const std::string& body) {
-  const auto json = ReadObject(body, {"orders", "id", "valid_s", "goes_on"});
+  const auto json = ReadObject(body, {"orders", "id", "valid_s", "goes_on", "unheard"});
   if (!json) return tl::unexpected(json.error());
   auto orders = LineIn(*json, "orders");
   if (!orders) return tl::unexpected(orders.error());
@@ -121,11 +121,13 @@ Result<SendBody> ReadSend(const std::string& body) {
     }
     send.valid_s = valid_s.get<std::uint32_t>();
   }
-  if (json->contains("goes_on")) {
-    if (!(*json)["goes_on"].is_boolean()) {
-      return Fail(ErrorCode::kInvalidArgument, "'goes_on' is to be true or false");
+  for (const auto& [name, value] :
+       {std::pair{"goes_on", &send.goes_on}, {"unheard", &send.unheard}}) {
+    if (!json->contains(name)) continue;
+    if (!(*json)[name].is_boolean()) {
+      return Fail(ErrorCode::kInvalidArgument, "'{}' is to be true or false", name);
     }
-    send.goes_on = (*json)["goes_on"].get<bool>();
+    *value = (*json)[name].get<bool>();
   }
   return send;
 }

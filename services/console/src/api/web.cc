@@ -58,7 +58,8 @@ int StatusOf(const std::vector<fleet::RobotsWord>& words) {
     case fleet::Obeyed::kUnanswered:
       break;
   }
-  return 504;
+  const bool is_one = words.size() == 1;
+  return is_one && !words.front().known ? 404 : 504;
 }
 
 // Robots and servers know the console alone, and who it is of its users from this.
@@ -270,8 +271,12 @@ void Web::Send(const std::string& robot, const Request& request, Response& respo
                                   .id = body->id.empty() ? IdFor(access_.WhoIs(request)) : body->id,
                                   .orders = body->orders,
                                   .valid_for_s = body->valid_s,
-                                  .goes_on = body->goes_on});
-  if (!report) return Refuse(response, 504, report.error().message);
+                                  .goes_on = body->goes_on},
+                                 body->unheard);
+  if (!report) {
+    const bool unknown = report.error().code == ErrorCode::kNotFound;
+    return Refuse(response, unknown ? 404 : 504, report.error().message);
+  }
   const bool taken = !mission::HasEnded(report->state) || report->state == mission::State::kArrived;
   Answer(response, taken ? 200 : 409, OneLine(fleet::ReportJson(*report)));
 }

@@ -1,9 +1,9 @@
-#include "services/catalog/src/similar_names.h"
+#include "services/base/similar_names.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace trailcast::catalog {
+namespace trailcast {
 namespace {
 
 using testing::ElementsAre;
@@ -40,5 +40,13 @@ TEST(MostSimilar, EachNameOnceAlphabeticallyAmongEqualsAndNoMoreThanAskedFor) {
   EXPECT_THAT(MostSimilar("x", {}, 10), IsEmpty());
 }
 
+TEST(DidYouMean, NamesWhatMayHaveBeenMistyped) {
+  EXPECT_EQ(DidYouMean("robot9", {"robot1", "robot2", "robot3", "barrow"}),
+            "; did you mean 'robot1' or 'robot2'?");
+  EXPECT_EQ(DidYouMean("hal", {"hall", "yard"}), "; did you mean 'hall'?");
+  EXPECT_EQ(DidYouMean("hall", {"yard", "corridor"}), "") << "another name altogether";
+  EXPECT_EQ(DidYouMean("hall", {}), "");
+}
+
 }  // namespace
-}  // namespace trailcast::catalog
+}  // namespace trailcast

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace trailcast::catalog {
+namespace trailcast {
 
 // How many letters must be put in, left out or changed to make one of the other, upper and lower
 // case being the same (Levenshtein's distance).
@@ -17,4 +17,8 @@ namespace trailcast::catalog {
                                                    std::vector<std::string> names,
                                                    std::size_t limit);
 
-}  // namespace trailcast::catalog
+// "; did you mean 'yard' or 'bard'?" of those names that a mistyped `wanted` may have meant; else
+// empty.
+[[nodiscard]] std::string DidYouMean(const std::string& wanted, std::vector<std::string> names);
+
+}  // namespace trailcast

@@ -1,10 +1,10 @@
-#include "services/catalog/src/similar_names.h"
+#include "services/base/similar_names.h"
 
 #include <algorithm>
 #include <numeric>
 #include <tuple>
 
-namespace trailcast::catalog {
+namespace trailcast {
 namespace {
 
 std::string LowerCase(std::string text) {
@@ -67,4 +67,15 @@ std::vector<std::string> MostSimilar(const std::string& wanted, std::vector<std:
   return similar;
 }
 
-}  // namespace trailcast::catalog
+std::string DidYouMean(const std::string& wanted, std::vector<std::string> names) {
+  constexpr std::size_t kMostMeant = 2;
+  std::string meant;
+  for (const std::string& name : MostSimilar(wanted, std::move(names), kMostMeant)) {
+    // A third of its letters mistyped is another name.
+    if (EditDistance(wanted, name) > std::max<std::size_t>(1, wanted.size() / 3)) continue;
+    meant += (meant.empty() ? "; did you mean '" : " or '") + name + "'";
+  }
+  return meant.empty() ? "" : meant + "?";
+}
+
+}  // namespace trailcast
