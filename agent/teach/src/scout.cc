@@ -359,7 +359,9 @@ Result<Taught> TeachByHand(RobotDevice& device, const ScoutOptions& options, Han
   if (!outcome) return tl::unexpected(outcome.error());
   if (drive.driven && end == End::kDiscarded) {
     Close(link, {}, AgentMode::kStopped);
-    return Taught{end, outcome->delivered, "what was taught is discarded"};
+    return Taught{end, outcome->delivered,
+                  "what was taught is discarded: no robot follows it, and a server lists what it "
+                  "has of it as cut off"};
   }
   const auto judged = Judge(drive.driven, *outcome, /*sent=*/false, options.link.store_file);
   Close(link, judged, end == End::kComplete ? AgentMode::kArrived : AgentMode::kStopped);

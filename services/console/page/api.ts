@@ -216,7 +216,7 @@ export type Changes = {
   history: { kept_since_unix_ms: number; total: number; changes: RouteChange[] };
 };
 
-export type RouteAction = 'activate' | 'rollback' | 'retire';
+export type RouteAction = 'activate' | 'rollback' | 'retire' | 'delete';
 
 export async function editRoute(route: string, action: RouteAction, revision: number): Promise<Answer> {
   try {

@@ -40,6 +40,8 @@ std::string Metres(double metres) {
 }
 
 tl::unexpected<Error> Wrong(std::string_view word, std::string_view expected) {
+  if (word.empty())
+    return Fail(ErrorCode::kInvalidArgument, "the end comes too soon: expected {}", expected);
   return Fail(ErrorCode::kInvalidArgument, "'{}': expected {}", word, expected);
 }
 

@@ -1,6 +1,7 @@
 // `trailcast network`.
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -114,6 +115,19 @@ Result<void> CheckPlace(const NetworkOptions& options) {
               "'passing' takes one place: ROUTE@METRES, as hall@12.3, or what one is called");
 }
 
+// Names have no spaces, and would be taken for several words.
+Result<void> OneWordEach(const std::vector<std::string>& words) {
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    std::string name = words[i];
+    if (name.find(' ') == std::string::npos) continue;
+    std::replace(name.begin(), name.end(), ' ', '-');
+    return Fail(ErrorCode::kInvalidArgument,
+                "'{}' has a space: a name is 1 to 64 letters, digits, '_', '.' and '-', as '{}'",
+                words[i], name);
+  }
+  return {};
+}
+
 int Print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   return program::kExitOk;
@@ -122,6 +136,9 @@ int PrintJson(const program::Json& json) { return Print(program::Indented(json))
 
 int Run(const CLI::App& app, const program::CommonOptions& common, const NetworkOptions& options) {
   const std::string words = fmt::format("{}", fmt::join(options.words, " "));
+  if (const auto one = OneWordEach(options.words); !one) {
+    return ComplainOfUsage(app, one.error());
+  }
   // Before anybody is asked, what no server would understand.
   if (!Asks(options)) {
     if (const auto edit = network::ParseEdit(words); !edit) {

@@ -67,6 +67,10 @@ TEST_F(GotoTest, ARobotChangesOverAtAJointAndKeepsOutOfWhatIsClosed) {
   const Ended nowhere = Send({"goto", "loading-bay"});
   EXPECT_EQ(nowhere.status, 1) << nowhere.output;
   EXPECT_THAT(nowhere.output, HasSubstr("no place is called 'loading-bay'"));
+  const Ended spaced = Network({"name", "loading bay", "office@3.4"});
+  EXPECT_EQ(spaced.status, 2) << spaced.output;
+  EXPECT_THAT(spaced.output,
+              AllOf(HasSubstr("'loading bay' has a space"), HasSubstr("'loading-bay'")));
   const Ended named = Network({"name", "loading-bay", "office@3.4"});
   ASSERT_EQ(named.status, 0) << named.output;
   EXPECT_THAT(Network({}).output, HasSubstr("name loading-bay office@3.4"));

@@ -125,6 +125,10 @@ TEST(ConsoleBodies, AnEditSaysWhatIsToBecomeOfARoute) {
   EXPECT_EQ(edit->route, "hall");
   EXPECT_EQ(edit->revision, 2U);
   EXPECT_EQ(edit->tags, (std::vector<std::string>{"night", "wet"}));
+  EXPECT_TRUE(ReadRouteEdit("hall", R"({"action": "delete", "revision": 2})"));
+  EXPECT_THAT(ReadRouteEdit("hall", R"({"action": "delete"})").error().message,
+              HasSubstr("one 'revision'"))
+      << "nobody deletes a whole route by leaving something out";
   EXPECT_THAT(ReadRouteEdit("hall", R"({"action": "sell"})").error().message,
               testing::AllOf(HasSubstr("'action'"), HasSubstr("activate")));
 }

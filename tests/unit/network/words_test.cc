@@ -62,7 +62,7 @@ TEST(NetworkWords, WhatIsNotUnderstoodIsNamed) {
   EXPECT_THAT(Why(""), HasSubstr("expected 'join PLACE PLACE"));
   EXPECT_THAT(Why("dance hall"), HasSubstr("'dance': expected 'join"));
   EXPECT_THAT(Why("join hall office@1"), HasSubstr("'hall': expected ROUTE@METRES"));
-  EXPECT_THAT(Why("join hall@1"), HasSubstr("'': expected ROUTE@METRES"));
+  EXPECT_THAT(Why("join hall@1"), HasSubstr("the end comes too soon: expected ROUTE@METRES"));
   EXPECT_THAT(Why("join hall@1 hall@1"), HasSubstr("another place"));
   EXPECT_THAT(Why("join hall@-1 hall@1"), HasSubstr("'hall@-1'"));
   EXPECT_THAT(Why("join hall@nan hall@1"), HasSubstr("'hall@nan'"));
@@ -77,7 +77,7 @@ TEST(NetworkWords, WhatIsNotUnderstoodIsNamed) {
   EXPECT_THAT(Why("limit hall 3..7 speed 2"), HasSubstr("'2': expected times the taught speed"));
   EXPECT_THAT(Why("limit hall cost 0"), HasSubstr("'0': expected how many metres"));
   EXPECT_THAT(Why("name"), HasSubstr("or a name"));
-  EXPECT_THAT(Why("name bay"), HasSubstr("'': expected ROUTE@METRES"));
+  EXPECT_THAT(Why("name bay"), HasSubstr("the end comes too soon: expected ROUTE@METRES"));
   EXPECT_THAT(Why("name hall@3 office@8"),
               HasSubstr("'hall@3': expected what the place is called"));
   EXPECT_THAT(Why("name loading bay office@8"), HasSubstr("'bay'"));
@@ -104,7 +104,7 @@ TEST(NetworkWords, AProposedJointIsConfirmedOrRefusedByItsPlacesOrAsOneOfAll) {
   EXPECT_THAT(Why("confirm all below 0.9"), HasSubstr("'below': expected 'above F'"));
   EXPECT_THAT(Why("refuse all below 1.1"), HasSubstr("'1.1': expected how sure"));
   EXPECT_THAT(Why("confirm all above 0.9 please"), HasSubstr("'please'"));
-  EXPECT_THAT(Why("confirm hall@12"), HasSubstr("'': expected ROUTE@METRES"));
+  EXPECT_THAT(Why("confirm hall@12"), HasSubstr("the end comes too soon: expected ROUTE@METRES"));
   EXPECT_THAT(Why("refuse hall@12 office@0 both"), HasSubstr("nothing more"));
 }
 

@@ -18,7 +18,9 @@ export function Teach({ robot, onAnswer }: { robot: string; onAnswer: (answer: A
   const id = useId();
   const tags = words.split(/[\s,]+/).filter((tag) => tag !== '');
   const bad = tags.find((tag) => !kName.test(tag) || kTaken.includes(tag));
-  const wrong = name !== '' && !kName.test(name)
+  const wrong = /\s/.test(name)
+    ? `A name has no spaces: ${name.trim().replace(/\s+/g, '-')} would do.`
+    : name !== '' && !kName.test(name)
     ? 'A name has letters, digits and "_", "-", "." alone.'
     : bad !== undefined ? `“${bad}” cannot be a tag: one has letters, digits and "_", "-", "." alone, and is not called ${kTaken.join(', ')}.`
     : tags.length > kMostTags ? `At most ${kMostTags} tags.` : '';
@@ -31,7 +33,7 @@ export function Teach({ robot, onAnswer }: { robot: string; onAnswer: (answer: A
       <div className="fields">
         <label htmlFor={`${id}n`}>Name of the route
           <input id={`${id}n`} type="text" value={name} autoComplete="off" autoCapitalize="off" spellCheck={false}
-            maxLength={64} onChange={(event) => setName(event.target.value.trim())} />
+            maxLength={64} onChange={(event) => setName(event.target.value)} />
         </label>
         <label htmlFor={`${id}t`}>Tags
           <input id={`${id}t`} type="text" value={words} autoComplete="off" autoCapitalize="off" spellCheck={false}
@@ -207,7 +209,13 @@ export function Teaching({ robot, onAnswer }: { robot: Robot; onAnswer: (answer:
         {discards
           ? <button className="discard" onClick={() => end('cancel')}>Yes, discard what was taught</button>
           : <button onClick={() => setDiscards(true)}>Discard …</button>}
-        {discards && <button onClick={() => setDiscards(false)}>Keep it</button>}
+        {discards && <button onClick={() => setDiscards(false)}>Keep teaching</button>}
+        {discards && (
+          <p className="note">
+            No robot follows what is discarded. What a route server has of it by then stays listed there as cut off, until an
+            administrator deletes it.
+          </p>
+        )}
       </div>
     </section>
   );

@@ -49,7 +49,19 @@ function Confirm({ asked, name, onDone, onLeave }: {
   );
 }
 
-const words: Record<RouteAction, string> = { activate: 'Activate', rollback: 'Roll back', retire: 'Retire' };
+const words: Record<RouteAction, string> = {
+  activate: 'Activate', rollback: 'Roll back', retire: 'Retire', delete: 'Delete',
+};
+
+// A complete revision before the active one, to go back to.
+const hasBefore = (revisions: FoundRoute[]) => {
+  const active = revisions.find((each) => each.state === 'active');
+  return active !== undefined && revisions.some((each) => each.revision < active.revision && ['staged', 'retired'].includes(each.state));
+};
+
+const willFollow = (route: FoundRoute) => (route.state === 'cut off'
+  ? 'Its teaching was discarded or cut off, so it ends somewhere on the way. Robots will follow it all the same from now on.'
+  : 'Robots will follow this revision from now on.');
 
 export function Revisions({ route }: { route: string }) {
   const [page, setPage] = useState<RoutePage | string | null>(null);
@@ -78,7 +90,7 @@ export function Revisions({ route }: { route: string }) {
       {back}
       <header className="routehead">
         <h2>{name}</h2>
-        {mayAdminister && revisions.length > 1 && (
+        {mayAdminister && hasBefore(revisions) && (
           <button onClick={() => setAsked({ action: 'rollback', revision: 0, what: 'Robots will follow the revision before the active one.' })}>
             Roll back …
           </button>
@@ -116,13 +128,18 @@ export function Revisions({ route }: { route: string }) {
                 <td key={each.teaching}>
                   <div className="orders">
                     {mayAdminister && each.state !== 'active' && each.state !== 'teaching' && (
-                      <button onClick={() => setAsked({ action: 'activate', revision: each.revision, what: 'Robots will follow this revision from now on.' })}>
+                      <button onClick={() => setAsked({ action: 'activate', revision: each.revision, what: willFollow(each) })}>
                         Activate …
                       </button>
                     )}
                     {mayAdminister && each.state !== 'retired' && each.state !== 'teaching' && (
                       <button onClick={() => setAsked({ action: 'retire', revision: each.revision, what: 'It is kept, and offered to no robot.' })}>
                         Retire …
+                      </button>
+                    )}
+                    {mayAdminister && each.state !== 'active' && each.state !== 'teaching' && each.revision > 0 && (
+                      <button onClick={() => setAsked({ action: 'delete', revision: each.revision, what: 'It is deleted for good, and no robot follows it any more.' })}>
+                        Delete …
                       </button>
                     )}
                     {each.state !== 'teaching' && <Download route={each} />}

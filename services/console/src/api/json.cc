@@ -59,7 +59,7 @@ const std::map<std::string, route::EditAction>& EditWords() {
       {"activate", EditAction::kActivate}, {"rollback", EditAction::kRollBack},
       {"rename", EditAction::kRename},     {"tag", EditAction::kTag},
       {"untag", EditAction::kUntag},       {"describe", EditAction::kDescribe},
-      {"retire", EditAction::kRetire}};
+      {"retire", EditAction::kRetire},     {"delete", EditAction::kDelete}};
   return kWords;
 }
 
@@ -182,6 +182,11 @@ Result<route::RouteEdit> ReadRouteEdit(const std::string& route, const std::stri
       return Fail(ErrorCode::kInvalidArgument, "'revision' is to be a number, 0 for all");
     }
     edit.revision = revision.get<std::uint32_t>();
+  }
+  if (edit.action == route::EditAction::kDelete && edit.revision == 0) {
+    return Fail(
+        ErrorCode::kInvalidArgument,
+        "'delete' takes one 'revision': a whole route is deleted by 'trailcast routes delete'");
   }
   const bool of_whole_route =
       edit.action == route::EditAction::kRename || edit.action == route::EditAction::kRollBack;
