@@ -93,4 +93,15 @@ Right RightTo(const std::string& method, const std::string& path) {
   return {};
 }
 
+std::string MethodsOf(const std::string& path) {
+  std::string methods;
+  for (const Row& row : kRows) {
+    if (!IsMeant(path, row.path)) continue;
+    methods += methods.empty() ? "" : ", ";
+    methods += row.method;
+    if (row.method == "GET") methods += ", HEAD";
+  }
+  return methods;
+}
+
 }  // namespace trailcast::console

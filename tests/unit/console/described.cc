@@ -280,7 +280,7 @@ std::optional<std::string> DescribedPath(const json& description, const std::str
 
 // What the description says of all requests alike.
 bool IsRefusedLikeAny(const httplib::Response& response) {
-  static const std::vector<int> kLikeAny{401, 403, 404, 411, 413, 415, 421, 500};
+  static const std::vector<int> kLikeAny{401, 403, 404, 405, 411, 413, 415, 421, 500};
   return std::find(kLikeAny.begin(), kLikeAny.end(), response.status) != kLikeAny.end();
 }
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <thread>
 
+#include "services/console/src/api/files.h"
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
 #include "services/program/presence.h"
@@ -91,6 +92,48 @@ TEST_F(WebTest, RefusesOtherHostsAndOtherPages) {
   EXPECT_EQ(Client().Get("/api/missions?limit=101")->status, 400);
   EXPECT_EQ(Client().Get("/api/missions?robot=a%2Fb")->status, 400);
   EXPECT_EQ(Client().Get("/api/missions")->status, 503) << "no server";
+}
+
+TEST_F(WebTest, WhatIsThereForAnotherMethodIsSaid) {
+  const auto stop = Client().Get("/api/robots/robot1/stop");
+  EXPECT_EQ(stop->status, 405);
+  EXPECT_EQ(stop->get_header_value("Allow"), "POST");
+  EXPECT_THAT(json::parse(stop->body)["error"].get<std::string>(),
+              HasSubstr("takes POST, not GET"));
+  const auto state = Client().Post("/api/state", "{}", "application/json");
+  EXPECT_EQ(state->status, 405);
+  EXPECT_EQ(state->get_header_value("Allow"), "GET, HEAD");
+  EXPECT_EQ(Client().Delete("/api/site/plan")->status, 405);
+  EXPECT_EQ(Client().Get("/api/nowhere")->status, 404);
+}
+
+// For who makes a client of it.
+TEST(Description, NamesEachRequestAndTheTypeOfWhatMayBeNull) {
+  json description;
+  for (const File& file : Files()) {
+    if (std::string(file.path) == "/api/openapi.yaml") {
+      description = ReadDescription(std::string(file.bytes));
+    }
+  }
+  std::vector<std::pair<std::string, json>> parts{{"", description}};
+  while (!parts.empty()) {
+    const auto [where, part] = parts.back();
+    parts.pop_back();
+    if (!part.is_structured()) continue;
+    EXPECT_TRUE(!part.contains("nullable") || part.contains("type")) << where;
+    for (const auto& [name, value] : part.items()) parts.emplace_back(where + "/" + name, value);
+  }
+  std::set<std::string> ids;
+  std::set<std::string> tags;
+  for (const json& tag : description["tags"]) tags.insert(tag["name"].get<std::string>());
+  for (const auto& [path, methods] : description["paths"].items()) {
+    for (const auto& [method, request] : methods.items()) {
+      if (method == "parameters") continue;
+      EXPECT_TRUE(ids.insert(request.value("operationId", "")).second) << method << " " << path;
+      EXPECT_TRUE(tags.contains(request["tags"].at(0).get<std::string>())) << path;
+    }
+  }
+  EXPECT_FALSE(ids.contains(""));
 }
 
 // In whatever form a client may send it.

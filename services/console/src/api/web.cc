@@ -11,6 +11,7 @@
 #include "services/base/text.h"
 #include "services/base/unix_time.h"
 #include "services/console/json.h"
+#include "services/console/rights.h"
 #include "services/console/runs.h"
 #include "services/console/src/api/answers.h"
 #include "services/console/src/api/driving_api.h"
@@ -81,6 +82,14 @@ http::Limits LimitsFor(const Access& access) {
   return {.threads = kOwn + 64, .body_bytes = kMostBody, .of_one_address = 24};
 }
 
+// A path that is there for something else.
+std::optional<http::Refusal> JudgeMethod(const Request& request) {
+  const std::string methods = MethodsOf(request.path);
+  const std::string method = request.method == "HEAD" ? "GET" : request.method;
+  if (methods.empty() || RightTo(method, request.path).is_known) return std::nullopt;
+  return http::Refusal{405, fmt::format("{} takes {}, not {}", request.path, methods, method)};
+}
+
 }  // namespace
 
 Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join, Runs* runs)
@@ -101,13 +110,14 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
       {"Cross-Origin-Resource-Policy", "same-origin"}};
   if (access_.encrypted()) headers.emplace("Strict-Transport-Security", "max-age=31536000");
   server_.set_default_headers(std::move(headers));
-  server_.set_error_handler([](const Request&, Response& response) {
-    if (response.body.empty())
-      Refuse(response, response.status, "there is nothing of this kind here");
+  server_.set_error_handler([](const Request& request, Response& response) {
+    if (response.status == 405) response.set_header("Allow", MethodsOf(request.path));
+    if (response.body.empty()) Refuse(response, response.status, "not found");
   });
   server_.JudgeBy(
       [this](const Request& request) {
         auto refusal = http::Judge(request, door_);
+        if (!refusal) refusal = JudgeMethod(request);
         if (!refusal && !server_.TakesAnyBody(request)) refusal = http::JudgeType(request);
         return refusal ? refusal : access_.Judge(request);
       },
