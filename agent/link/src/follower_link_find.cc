@@ -8,6 +8,7 @@
 #include "agent/link/follower_link.h"
 #include "services/base/time.h"
 #include "services/route/labels.h"
+#include "services/route/no_route.h"
 #include "services/route/route_ref.h"
 
 namespace trailcast::agent {
@@ -18,10 +19,6 @@ using std::chrono::steady_clock;
 
 // Who has the route already does not wait longer than this for a server's word on it.
 constexpr milliseconds kServerPatience{3000};
-
-std::string NamesText(const std::vector<std::string>& names) {
-  return names.empty() ? "it has none" : fmt::format("it has: {}", fmt::join(names, ", "));
-}
 
 // There are revisions, but not the one that is meant. `holder`: "server 'server'", "robot.db".
 Error NotOffered(const std::string& holder, std::vector<route::RouteInfo> others,
@@ -76,8 +73,8 @@ Result<void> FollowerLink::Find() {
     if (auto routes = store_->ListRoutes()) {
       for (const route::RouteInfo& info : *routes) names.push_back(info.name);
     }
-    return Fail(ErrorCode::kNotFound, "there is no route '{}' in {}: {}", options_.route,
-                options_.store_file, NamesText(names));
+    return Fail(ErrorCode::kNotFound, "{}",
+                route::NoRouteText(options_.store_file, options_.route, names));
   }
   waiting_for_ = fmt::format("waiting for a server that knows route '{}'", options_.route);
   spdlog::info("asking for route '{}'", options_.route);
@@ -112,9 +109,9 @@ Result<bool> FollowerLink::Asked(Time began, const std::optional<route::RouteInf
     return tl::unexpected(NotOffered(fmt::format("server '{}'", finder_.unknown()->server.value()),
                                      finder_.unknown()->others, options_));
   } else if (unknown && !options_.wait_for_route) {
-    return Fail(ErrorCode::kNotFound, "server '{}' has no route '{}': {}",
-                finder_.unknown()->server.value(), options_.route,
-                NamesText(finder_.unknown()->similar_names));
+    return Fail(ErrorCode::kNotFound, "{}",
+                route::NoRouteText(fmt::format("server '{}'", finder_.unknown()->server.value()),
+                                   options_.route, finder_.unknown()->similar_names));
   } else if (waited > options_.wait) {
     if (finder_.unknown()) {
       return Fail(ErrorCode::kNotFound, "nobody taught route '{}' within {:.0f} s: server '{}' {}",

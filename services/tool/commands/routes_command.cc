@@ -15,6 +15,7 @@
 #include "services/program/json.h"
 #include "services/program/place_options.h"
 #include "services/program/stop_signal.h"
+#include "services/route/no_route.h"
 #include "services/route/query_words.h"
 #include "services/tool/commands/command.h"
 #include "services/tool/commands/route_diff.h"
@@ -79,13 +80,10 @@ route::RouteQuery QueryOf(const RoutesOptions& options, std::int64_t now_unix_ms
 
 // No route of that name is a failure that says what there is.
 int ShowNone(const CLI::App& app, const std::string& name, const exchange::CatalogReply& reply) {
-  std::string similar;
-  for (const std::string& each : reply.similar_names) {
-    similar += fmt::format("{}{}", similar.empty() ? "; there is " : ", ", each);
-  }
   return program::Complain(
-      app, {ErrorCode::kNotFound, fmt::format("server {} has no such route '{}'{}",
-                                              reply.server.value(), name, similar)});
+      app,
+      {ErrorCode::kNotFound, route::NoRouteText(fmt::format("server '{}'", reply.server.value()),
+                                                name, reply.similar_names)});
 }
 
 // Of the routes that are complete.

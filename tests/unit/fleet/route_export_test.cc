@@ -57,7 +57,10 @@ TEST(ChooseForExport, NamesWhatThereIsInstead) {
   exchange::CatalogReply reply;
   reply.similar_names = {"hall", "hull"};
   EXPECT_EQ(ChooseForExport(reply, "hell", {}, "server 'barn'").error().message,
-            "server 'barn' has no route 'hell'; there is hall, hull");
+            "server 'barn' has no route 'hell'; did you mean 'hall' or 'hull'?");
+  reply.similar_names = {"yard", "office"};
+  EXPECT_EQ(ChooseForExport(reply, "hell", {}, "server 'barn'").error().message,
+            "server 'barn' has no route 'hell'; there is yard, office");
   EXPECT_EQ(ChooseForExport({}, "hell", {.number = 2}, "server 'barn'").error().message,
             "server 'barn' has no route 'hell'");
 }

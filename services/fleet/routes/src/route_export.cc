@@ -12,6 +12,7 @@
 #include "services/exchange/route_fetcher.h"
 #include "services/exchange/route_finder.h"
 #include "services/route/digest.h"
+#include "services/route/no_route.h"
 #include "services/route/route_ref.h"
 
 namespace trailcast::fleet {
@@ -57,9 +58,7 @@ tl::unexpected<Error> NotThere(const exchange::CatalogReply& reply, const std::s
     return Fail(ErrorCode::kNotFound, "{} has no revision {} of route '{}'; it has {}", holder,
                 *revision, name, fmt::join(revisions, ", "));
   }
-  const auto& names = reply.similar_names;
-  return Fail(ErrorCode::kNotFound, "{} has no route '{}'{}{}", holder, name,
-              names.empty() ? "" : "; there is ", fmt::join(names, ", "));
+  return Fail(ErrorCode::kNotFound, "{}", route::NoRouteText(holder, name, reply.similar_names));
 }
 
 }  // namespace
