@@ -106,6 +106,13 @@ export function useFleet(): View {
   return { fleet, settled, lost, now_ms: now_ms + offset_ms, heard_ms: heard_ms + offset_ms };
 }
 
+// As robots and commands write it, by this browser's time zone: "2026-11-29 21:38:03".
+export function when(unix_ms: number): string {
+  const at = new Date(unix_ms);
+  const two = (value: number) => String(value).padStart(2, '0');
+  return `${at.getFullYear()}-${two(at.getMonth() + 1)}-${two(at.getDate())} ${two(at.getHours())}:${two(at.getMinutes())}:${two(at.getSeconds())}`;
+}
+
 export function age(ms: number): string {
   const s = Math.max(0, Math.round(ms / 1000));
   if (s < 100) return `${s} s`;

@@ -92,7 +92,7 @@ export function OnlyLooks() {
   if (me === null || me === 'out' || me.role !== 'look') return null;
   return (
     <p className="looks" role="note">
-      You may look, and not tell robots anything{me.only_looks ? `: ${me.only_looks}` : ''}.
+      View only{me.only_looks ? `: ${me.only_looks}` : ''}.
     </p>
   );
 }

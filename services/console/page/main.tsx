@@ -21,8 +21,8 @@ function Attention({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
   const needing = robots.filter((robot) => robot.needs_person);
   if (needing.length === 0) return null;
   return (
-    <section className="attention" aria-label="Needs a person">
-      <h2>Needs a person</h2>
+    <section className="attention" aria-label="Needs attention">
+      <h2>Needs attention</h2>
       <ul>
         {needing.map((robot) => (
           <li key={robot.name}>
@@ -48,7 +48,7 @@ function Robots({ fleet, settled, lost_ms, now_ms }: {
       <Attention robots={robots} now_ms={now_ms} />
       <Lines robots={robots} />
       <section aria-label="Robots" className="robots">
-        {!settled && robots.length === 0 && <p className="note">Listens for robots …</p>}
+        {!settled && robots.length === 0 && <p className="note">Searching for robots …</p>}
         {settled && robots.length === 0 && (
           <p className="note">No robot is heard. One that is on duty (<code>trailcast-agent serve</code>) shows up here.</p>
         )}
@@ -148,7 +148,7 @@ function Page() {
       <OnlyLooks />
       {settled && !lost && !servers.some((server) => server.heard) && (
         <p className="banner" role="alert">
-          ⚠ No route server is heard: no routes to choose from, nothing is kept, and only robots in
+          ⚠ Route server offline: there are no routes to choose from, nothing is kept, and only robots in
           direct reach hear this console.
         </p>
       )}
@@ -161,16 +161,16 @@ function Page() {
       </main>
       <footer>
         <p id="stop-help">
-          Stop has a robot stand, also after a restart, until it is released. <strong>It is no
-          emergency stop:</strong> a robot that is out of reach drives on. Use the red button on the robot.
+          Stop holds the robot, even after a restart, until it is released. <strong>Not an emergency
+          stop:</strong> a robot that is out of reach drives on. Use the red button on the robot.
         </p>
         <p>
           {servers.map((server) => (
             <span key={server.name}>
-              Route server <strong>{server.name}</strong>: {server.last_heard_unix_ms === null ? 'heard' : `silent for ${age(now_ms - server.last_heard_unix_ms)}`}.{' '}
+              Route server <strong>{server.name}</strong>: {server.last_heard_unix_ms === null ? 'online' : `offline for ${age(now_ms - server.last_heard_unix_ms)}`}.{' '}
             </span>
           ))}
-          <a href="/api/openapi.yaml">For programs</a>
+          <a href="/api/openapi.yaml">API</a>
         </p>
       </footer>
     </Lost.Provider>

@@ -1,25 +1,25 @@
 import type { Mission } from './api';
-import { age } from './fleet';
+import { age, when } from './fleet';
 
 export function Missions({ missions, now_ms }: { missions: Mission[] | null; now_ms: number }) {
-  if (missions === null) return <p className="note">Asks route servers what robots were sent to do …</p>;
+  if (missions === null) return <p className="note">Loading missions …</p>;
   if (missions.length === 0) return <p className="note">No robot was sent anywhere yet.</p>;
   return (
     <table>
       <thead>
-        <tr><th>Sent</th><th>Robot</th><th>Orders</th><th>State</th><th>Why</th><th>By</th></tr>
+        <tr><th>Sent</th><th>Robot</th><th>Orders</th><th>State</th><th>Why</th><th>Operator</th></tr>
       </thead>
       <tbody>
         {missions.map((each) => (
           <tr key={`${each.robot} ${each.mission}`} className={each.state.replace(' ', '-')}>
-            <td data-label="Sent" title={new Date(each.sent_unix_ms).toLocaleString()}>
+            <td data-label="Sent" title={when(each.sent_unix_ms)}>
               {age(now_ms - each.sent_unix_ms)} ago
             </td>
             <td data-label="Robot">{each.robot}</td>
             <td data-label="Orders">{each.orders || '(not told)'}</td>
             <td data-label="State"><strong>{each.state}</strong></td>
             <td data-label="Why">{each.detail}</td>
-            <td data-label="By">{each.sent_by}</td>
+            <td data-label="Operator">{each.sent_by}</td>
           </tr>
         ))}
       </tbody>

@@ -46,15 +46,14 @@ std::optional<std::string> TokenIn(const Request& request) {
 void Turn(const users::Turned& turned, Response& response) {
   using Why = users::Turned::Why;
   if (turned.why == Why::kWrong) {
-    return Refuse(response, 401, "user and password do not belong together");
+    return Refuse(response, 401, "Wrong user name or password");
   }
   const auto wait = std::chrono::ceil<std::chrono::seconds>(turned.wait).count();
   response.set_header("Retry-After", std::to_string(std::max<std::int64_t>(wait, 1)));
   if (turned.why == Why::kBusy) {
     return Refuse(response, 503, "too many log in at the moment: try again");
   }
-  Refuse(response, 429,
-         fmt::format("user and password did not belong together too often: wait {} s", wait));
+  Refuse(response, 429, fmt::format("Wrong user name or password too often: wait {} s", wait));
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
 
   ASSERT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall speed 0.25"}}).status,
             200);
-  ASSERT_TRUE(browser.WaitForText("On their way")) << browser.Text() << agent_->output();
+  ASSERT_TRUE(browser.WaitForText("Active routes")) << browser.Text() << agent_->output();
   ASSERT_TRUE(WaitUntil([&] {
     return browser.Run("return document.querySelectorAll('.lines .cells').length") > json(0);
   })) << browser.Text()
@@ -84,7 +84,7 @@ TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
   EXPECT_EQ(shape["closing"], nullptr);
 
   ASSERT_TRUE(browser.Click("//nav//a[contains(., 'Map')]"));
-  ASSERT_TRUE(browser.WaitForText("By wheels, not a map")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Odometry trace (may drift)")) << browser.Text();
   ASSERT_TRUE(WaitUntil([&] { return DrawnAt(browser, ".plan") > 0.0; })) << browser.Text();
   browser.Screenshot(Shot("phone-shape"));
   browser.Look(1280, 800);
@@ -98,11 +98,11 @@ TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
   ASSERT_TRUE(browser.Click("//label[contains(., 'Site')]"));
   ASSERT_TRUE(browser.WaitForText("hall, 3.5 m")) << browser.Text();
   ASSERT_TRUE(browser.Click("//select/option[contains(., 'hall')]")) << browser.Text();
-  ASSERT_TRUE(browser.WaitForText("Put hall in the middle")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Place hall")) << browser.Text();
   ASSERT_TRUE(WaitUntil([&] {
     return browser.Run("return document.querySelector('.site image') !== null") == json(true);
   })) << "the floor plan";
-  ASSERT_TRUE(browser.Click("//button[contains(., 'in the middle')]")) << browser.Text();
+  ASSERT_TRUE(browser.Click("//button[contains(., 'Place hall')]")) << browser.Text();
   ASSERT_TRUE(browser.Type("//*[@class='handles']",
                            "\xEE\x80\x92\xEE\x80\x93"
                            "e"));

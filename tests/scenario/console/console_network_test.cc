@@ -51,7 +51,7 @@ TEST_F(ConsoleNetworkTest, RoutesAreJoinedClosedAndARobotIsSentToAPlaceUponThem)
   ASSERT_TRUE(browser.Type(Field("To"), "office@1.5"));
   ASSERT_TRUE(browser.Click(Button("Join")));
   ASSERT_TRUE(browser.WaitForText("Now: join hall@1.5 office@1.5")) << browser.Text();
-  ASSERT_TRUE(browser.WaitForText("2 routes, 1 joint.")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("2 routes, 1 junction.")) << browser.Text();
   ASSERT_EQ(Network()["joints"].size(), 1U);
 
   browser.Open(Page() + "#routes/office");
@@ -62,7 +62,7 @@ TEST_F(ConsoleNetworkTest, RoutesAreJoinedClosedAndARobotIsSentToAPlaceUponThem)
   ASSERT_TRUE(browser.WaitForText("At 1.5 m office, there at 1.5 m: joined, to there"))
       << browser.Text();
   ASSERT_TRUE(browser.Click("//nav/a[. = 'Network']"));
-  ASSERT_TRUE(browser.WaitForText("2 routes, 1 joint.")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("2 routes, 1 junction.")) << browser.Text();
 
   // A click upon a route says which place is meant.
   ASSERT_TRUE(browser.Click(Mode("Name a place")));
@@ -96,7 +96,7 @@ TEST_F(ConsoleNetworkTest, RoutesAreJoinedClosedAndARobotIsSentToAPlaceUponThem)
   ASSERT_TRUE(browser.Click(Mode("Find a way")));
   ASSERT_TRUE(browser.Type(Field("From"), "hall@1"));
   ASSERT_TRUE(browser.Type(Field("To"), "office@1.55"));
-  ASSERT_TRUE(browser.Click(Button("Find the way")));
+  ASSERT_TRUE(browser.Click(Button("Find a path")));
   ASSERT_TRUE(
       browser.WaitForText("0.55 m to office@1.55: hall 1 to 1.5 m, then office 1.5 to 1.55 m"))
       << browser.Text();
@@ -110,11 +110,11 @@ TEST_F(ConsoleNetworkTest, RoutesAreJoinedClosedAndARobotIsSentToAPlaceUponThem)
   ASSERT_TRUE(browser.Click(Mode("Send a robot")));
   ASSERT_TRUE(browser.Type(Field("To"), "bay"));
   ASSERT_TRUE(browser.Type(Field("From"), "hall@0"));
-  ASSERT_TRUE(browser.Click(Button("Show the way")));
+  ASSERT_TRUE(browser.Click(Button("Show the path")));
   ASSERT_TRUE(browser.WaitForText("office 1.55..1.6")) << "why not: " << browser.Text();
   ASSERT_TRUE(browser.Click("//td//button[starts-with(., 'Open')]")) << browser.Text();
   ASSERT_TRUE(HasClosed(browser, 0)) << browser.Text();
-  ASSERT_TRUE(browser.Click(Button("Show the way")));
+  ASSERT_TRUE(browser.Click(Button("Show the path")));
   ASSERT_TRUE(browser.WaitForText("hall 0 to 1.5 m, then office 1.5 to")) << browser.Text();
   browser.Screenshot(Shot("network-way"));
   ASSERT_TRUE(browser.Type("//*[@class='net-way']//input[@type='range']", kSlide));

@@ -137,7 +137,7 @@ TEST_F(ConsolePeopleTest, AnOperatorPausesOneOfThreeRobotsAndWhoLooksSeesIt) {
     const json buttons =
         guest->Run("return [...document.querySelectorAll('button')].map((each) => each.innerText)");
     EXPECT_THAT(buttons.get<std::vector<std::string>>(),
-                Each(testing::AnyOf("Camera", "Log out", "Search", "More", "Find the way", "−", "+",
+                Each(testing::AnyOf("Camera", "Log out", "Search", "More", "Find a path", "−", "+",
                                     "hall", "bench", "back", HasSubstr("follow "))))
         << page;
     EXPECT_THAT(guest->Text(), Not(HasSubstr("Upload"))) << page;
@@ -160,7 +160,7 @@ TEST_F(ConsolePeopleTest, AnOperatorPausesOneOfThreeRobotsAndWhoLooksSeesIt) {
   server_->Signal(SIGKILL);
   (void)End(*server_);
   for (Browser* browser : {anna.get(), guest.get()}) {
-    EXPECT_TRUE(browser->WaitForText("No route server is heard")) << browser->Text();
+    EXPECT_TRUE(browser->WaitForText("Route server offline")) << browser->Text();
   }
   anna->Screenshot(Shot("server-lost"));
   ASSERT_TRUE(anna->Click(Card("robot2") + "//button[contains(@class, 'stop')]"));

@@ -42,8 +42,7 @@ class ConsoleRoutesTest : public ConsoleFleetTest {
 TEST_F(ConsoleRoutesTest, WhatIsNotKnownYetIsNotSaidToBeAbsent) {
   server_->Signal(SIGSTOP);
   Open("fleet");
-  ASSERT_TRUE(browser_->WaitForText("Asks route servers what robots were sent"))
-      << browser_->Text();
+  ASSERT_TRUE(browser_->WaitForText("Loading missions")) << browser_->Text();
   EXPECT_THAT(browser_->Text(), Not(HasSubstr("No robot was sent")));
   ASSERT_TRUE(browser_->WaitForText("No robot is heard")) << browser_->Text();
   server_->Signal(SIGCONT);
@@ -69,7 +68,7 @@ TEST_F(ConsoleRoutesTest, APersonFindsARouteAndChoosesItsRevision) {
   Open("routes");
   ASSERT_TRUE(browser_->WaitForText("2 of 2")) << browser_->Text();
   ASSERT_TRUE(browser_->Type("//input[@name='prefix']", "attic\xEE\x80\x87"));  // Enter
-  ASSERT_TRUE(browser_->WaitForText("No route is so.")) << browser_->Text();
+  ASSERT_TRUE(browser_->WaitForText("No routes match.")) << browser_->Text();
   browser_->Open("about:blank");
   Open("routes");
   ASSERT_TRUE(browser_->Type("//input[@name='prefix']", "ha\xEE\x80\x87"));
@@ -78,7 +77,8 @@ TEST_F(ConsoleRoutesTest, APersonFindsARouteAndChoosesItsRevision) {
   ASSERT_TRUE(browser_->Click("//a[text()='hall']"));
   ASSERT_TRUE(browser_->WaitForText("Segments")) << browser_->Text();
   EXPECT_THAT(browser_->Text(),
-              AllOf(HasSubstr("Camera"), HasSubstr("scout"), HasSubstr("Roll back")));
+              AllOf(HasSubstr("Camera"), HasSubstr("scout"), Not(HasSubstr("Roll back"))))
+      << "there is nothing to go back to";
   ASSERT_TRUE(browser_->Click("//th[contains(., 'Ground')]/button"));
   ASSERT_TRUE(browser_->WaitForText("slope not known")) << browser_->Text();
   browser_->Screenshot(Shot("phone-revisions"));
@@ -117,7 +117,7 @@ TEST_F(ConsoleRoutesTest, APersonSeesWhatWasChangedSinceWhenAndByWhom) {
     ASSERT_EQ(done.status, 0) << done.output;
   }
   Open("routes");
-  ASSERT_TRUE(browser_->Click("//a[. = 'What was changed']"));
+  ASSERT_TRUE(browser_->Click("//a[. = 'Activity log']"));
   ASSERT_TRUE(browser_->WaitForText("3 changes since ")) << browser_->Text();
   EXPECT_THAT(browser_->Text(),
               AllOf(HasSubstr("close aisle 1..2"), HasSubstr("night-shift"),

@@ -207,7 +207,7 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   const Ended stop_all = End(*Start("trailcast", {"stop", "--all", "--timeout", "2"}, "stop-all"));
   EXPECT_EQ(stop_all.status, 1) << stop_all.output;
   EXPECT_THAT(stop_all.output, HasSubstr("robot1: did not answer: last known on its mission"));
-  EXPECT_THAT(browser.Text(), AllOf(HasSubstr("Last seen"), HasSubstr("Needs a person")));
+  EXPECT_THAT(browser.Text(), AllOf(HasSubstr("Last seen"), HasSubstr("Needs attention")));
   browser.Look(1280, 800, true);
   browser.Screenshot(Shot("desktop-silent"));
   browser.Open("about:blank");

@@ -140,7 +140,7 @@ TEST_F(GlanceTest, APersonSeesThePictureWhileItIsOpenInABrowser) {
   ASSERT_TRUE(browser.WaitForText("Driving")) << browser.Text() << agent_->output();
   ASSERT_TRUE(browser.Click("//button[contains(., 'Camera')]"));
   ASSERT_TRUE(browser.WaitForText("in their funnel lanes")) << browser.Text() << agent_->output();
-  ASSERT_TRUE(browser.WaitForText("Beside")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Lateral offset")) << browser.Text();
   const json lit = browser.Run(
       "const canvas = document.querySelector('.glance canvas');"
       "const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;"

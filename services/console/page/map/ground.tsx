@@ -32,7 +32,7 @@ export function Ground({ route }: { route: FoundRoute }) {
       {!taught ? '–'
         : shape ? <Felt terrain={shape.terrain} />
         : error ? `⚠ ${error}`
-        : `asks … ${Math.round(100 * fetched)} %`}
+        : `Loading … ${Math.round(100 * fetched)} %`}
     </div>
   );
 }

@@ -107,7 +107,7 @@ function ShapeView({ robots, live, settled }: { robots: Robot[]; live: Route[]; 
           </select>
         </label>
       </div>
-      {!route && <p className="note">{settled ? 'No robot is on a route: choose one.' : 'Listens for robots …'}</p>}
+      {!route && <p className="note">{settled ? 'No robot is on a route: choose one.' : 'Searching for robots …'}</p>}
       {route && error && <p className="note">The shape of {route.name} is not there: {error}.</p>}
       {route && !shape && !error && <p className="note">Fetching the shape of {route.name}: {Math.round(100 * fetched)} %</p>}
       {route && shape?.unit === 's' && <p className="note">{route.name} was taught without odometry: it has no shape.</p>}
@@ -115,7 +115,7 @@ function ShapeView({ robots, live, settled }: { robots: Robot[]; live: Route[]; 
         <>
           <Plan shape={shape} robots={upon} measure={measure} />
           <p className="note by-wheels">
-            <strong>By wheels, not a map:</strong> wheels slip, and the way bends a little more or less than this.
+            <strong>Odometry trace (may drift):</strong> wheels slip, and the path bends a little more or less than this.
             {shape.closing && ` Its end looks as its beginning and came out ${shape.closing.gap_m.toFixed(1)} m off; that is spread along the loop for drawing only.`}
           </p>
           <MapLegend measure={measure} />

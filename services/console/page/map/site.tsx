@@ -276,7 +276,7 @@ export function SiteView({ robots, live }: { robots: Robot[]; live: Route[] }) {
       </p>
       {chosen && mayPlace && (
         <section className="placing" aria-label={`Place of ${chosen.name}`}>
-          {!at && <button onClick={() => edit(middle)}>Put {chosen.name} in the middle</button>}
+          {!at && <button onClick={() => edit(middle)}>Place {chosen.name}</button>}
           {at && (
             <>
               <p className="note">Drag its beginning, and the tip of its arrow to turn it; or use the keys, or numbers.</p>
@@ -284,7 +284,7 @@ export function SiteView({ robots, live }: { robots: Robot[]; live: Route[] }) {
               <div className="orders">
                 <button disabled={!draft} onClick={() => keep(draft)}>Save</button>
                 <button disabled={!draft} onClick={() => setDraft(null)}>Undo</button>
-                {site.placements[chosen.route] && <button onClick={() => keep(null)}>Take off</button>}
+                {site.placements[chosen.route] && <button onClick={() => keep(null)}>Remove</button>}
               </div>
             </>
           )}

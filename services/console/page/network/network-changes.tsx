@@ -103,7 +103,7 @@ export function JoinPlaces({ draft, onDraft, onEdit, routes }: Edits & { routes:
         <datalist id="net-starts">{names.map((each) => <option key={each} value={`${each}@`} />)}</datalist>
         <label className="net-check"><input type="checkbox" checked={both} onChange={(event) => setBoth(event.target.checked)} />and back</label>
         <button disabled={!first || !second} onClick={() => onEdit(`join ${first} ${second}${both ? ' both' : ''}`)}>Join</button>
-        <button disabled={!first || !second} onClick={() => onEdit(`part ${first} ${second}`)}>Part</button>
+        <button disabled={!first || !second} onClick={() => onEdit(`part ${first} ${second}`)}>Remove</button>
       </div>
     </>
   );

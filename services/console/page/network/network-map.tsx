@@ -261,12 +261,12 @@ function NetworkLegend() {
   return (
     <p className="legend net-legend">
       <span>{sample(<><path className="track" d="M4 9H28" /><path className="track-end" d={head(33, 9, 1, 0)} /><circle className="track-begin" cx="5" cy="9" r="4" /></>)}a route, as it was taught</span>
-      <span>{sample(<g className="joint"><path d="M6 2L24 16" /><path className="head" d={head(24, 16, 18, 14)} /></g>)}joint: robots may change over</span>
+      <span>{sample(<g className="joint"><path d="M6 2L24 16" /><path className="head" d={head(24, 16, 18, 14)} /></g>)}junction: robots may change over</span>
       <span>{sample(<g className="joint proposed"><path d="M4 9H30" /><text x="17" y="13" textAnchor="middle">?</text></g>)}proposed by a server</span>
       <span>{sample(<g className="joint unused"><path d="M6 2L24 16" /></g>)}not used: of another revision</span>
       <span>{sample(<path className="narrow" d="M3 3H31M3 15H31" />)}narrow</span>
       <span>{sample(<g className="closed"><rect className="sample" x="3" y="3" width="28" height="12" /><path d="M11 3l12 12m0-12l-12 12" /></g>)}closed</span>
-      <span>{sample(<g className="backed"><path d="M3 9H31" /><path className="head" d={head(5, 9, -1, 0)} /></g>)}backwards, too</span>
+      <span>{sample(<g className="backed"><path d="M3 9H31" /><path className="head" d={head(5, 9, -1, 0)} /></g>)}two-way (reverse)</span>
       <span>{sample(<path className="limited" d="M3 9H31" />)}slower, or counts as longer</span>
       <span>{sample(<path className="lost-at" d="M3 9H31" />)}robots lost their path there</span>
       <span>{sample(<g className="named"><circle cx="17" cy="9" r="6" /></g>)}a named place</span>

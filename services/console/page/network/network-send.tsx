@@ -32,7 +32,7 @@ export function SendThere({ robots, to, onTo, names, shown, onShown, onAnswer }:
   // A way is of one robot, to one place.
   useEffect(() => onShown(null), [chosen, from, to]);
   const ask = async () => {
-    onAnswer({ ok: true, text: 'Asks for the way …' });
+    onAnswer({ ok: true, text: 'Loading the path …' });
     const way = await get<Way>('/api/network/way', { from: from.trim() || chosen, to: to.trim() });
     if (typeof way === 'string') {
       onShown(null);
@@ -47,7 +47,7 @@ export function SendThere({ robots, to, onTo, names, shown, onShown, onAnswer }:
   };
   const go = async () => {
     if (!shown) return;
-    onAnswer({ ok: true, text: 'Sent …' });
+    onAnswer({ ok: true, text: 'Sending …' });
     const answer = await send(shown.robot, shown.way.orders);
     onAnswer({ ...answer, text: `${shown.robot}: ${answer.text}` });
     if (answer.ok) onShown(null);
@@ -74,7 +74,7 @@ export function SendThere({ robots, to, onTo, names, shown, onShown, onAnswer }:
             onChange={(event) => setFrom(event.target.value)} />
         </label>
         <datalist id="net-places">{names.map((name) => <option key={name} value={name} />)}</datalist>
-        <button disabled={!to.trim()} onClick={ask}>Show the way</button>
+        <button disabled={!to.trim()} onClick={ask}>Show the path</button>
       </div>
       {shown && (
         <div className="net-way">

@@ -36,10 +36,10 @@ const Line = memo(function Line({ row, isChosen, onChoose, onAround, onEdit }: O
           {row.length_m.toFixed(1)} m
         </span>
       </td>
-      <td data-label="Joints">
+      <td data-label="Junctions">
         <ul className="plain">
           {row.joints.map((joint, i) => (
-            <li key={i}>{jointText(joint, row.name)}{joint.used ? '' : ' (not used)'} {take('Part', `${textOf(joint.from)} and ${textOf(joint.to)}`, `part ${textOf(joint.from)} ${textOf(joint.to)}`)}</li>
+            <li key={i}>{jointText(joint, row.name)}{joint.used ? '' : ' (not used)'} {take('Remove', `${textOf(joint.from)} and ${textOf(joint.to)}`, `part ${textOf(joint.from)} ${textOf(joint.to)}`)}</li>
           ))}
           {row.proposed.map((proposal, i) => (
             <li key={`p${i}`}>
@@ -53,13 +53,13 @@ const Line = memo(function Line({ row, isChosen, onChoose, onAround, onEdit }: O
           )}
         </ul>
       </td>
-      <td data-label="Closed, lost">
+      <td data-label="Restrictions">
         <ul className="plain">
           {row.closed.map((part, i) => (
             <li key={i}><strong className="lost">closed</strong> {partText(part)} {take('Open', `${row.name} ${partText(part)}`, `open ${part.stretch.route} ${rangeOf(part.stretch)}`)}</li>
           ))}
           {row.backed.map((part, i) => (
-            <li key={`b${i}`}>backwards, too, {partText(part)} {take('Only ahead', `on ${row.name} ${partText(part)}`, `ahead ${part.stretch.route} ${rangeOf(part.stretch)}`)}</li>
+            <li key={`b${i}`}>two-way (reverse) {partText(part)} {take('Forward only', `on ${row.name} ${partText(part)}`, `ahead ${part.stretch.route} ${rangeOf(part.stretch)}`)}</li>
           ))}
           {row.narrow.map((part, i) => (
             <li key={`n${i}`}>narrow {partText(part)}{part.takenBy.length > 0 && `, taken by ${part.takenBy.join(' and ')}`} {take('Not narrow', `${row.name} ${partText(part)}`, `wide ${part.stretch.route} ${rangeOf(part.stretch)}`)}</li>
@@ -96,7 +96,7 @@ export function NetworkTable({ rows, chosen, ...does }: Props & { rows: Row[] })
   return (
     <table>
       <thead>
-        <tr><th>Route</th><th>Joints</th><th>Closed, slower, lost</th><th>Places</th><th>Robots</th></tr>
+        <tr><th>Route</th><th>Junctions</th><th>Restrictions</th><th>Places</th><th>Robots</th></tr>
       </thead>
       <tbody>
         {rows.map((row) => <Line key={row.name} row={row} isChosen={row.name === chosen} {...does} />)}

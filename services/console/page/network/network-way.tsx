@@ -34,7 +34,7 @@ export function FindWay({ draft, onDraft, names, way, onWay, onAnswer }: {
   const ask = async () => {
     const question = {};
     latest.current = question;
-    onAnswer({ ok: true, text: 'Asks for the way …' });
+    onAnswer({ ok: true, text: 'Loading the path …' });
     const found = await get<Way>('/api/network/way', { from, to });
     if (latest.current !== question) return;
     const there = typeof found !== 'string' && !found.orders;
@@ -47,7 +47,7 @@ export function FindWay({ draft, onDraft, names, way, onWay, onAnswer }: {
         <Field label="From (click there, or a name, a robot, ROUTE@METRES)" list="net-places" value={draft.first} onChange={(value) => onDraft({ ...draft, first: value })} />
         <Field label="To" list="net-places" value={draft.second} onChange={(value) => onDraft({ ...draft, second: value })} />
         <datalist id="net-places">{names.map((name) => <option key={name} value={name} />)}</datalist>
-        <button disabled={!from || !to} onClick={ask}>Find the way</button>
+        <button disabled={!from || !to} onClick={ask}>Find a path</button>
       </div>
       {way && <div className="net-way"><WayText to={to} way={way} /></div>}
     </>

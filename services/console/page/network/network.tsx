@@ -74,15 +74,15 @@ const many = (count: number, what: string) => `${count} ${what}${count === 1 ? '
 function counted(part: NetworkPart, query: Query): string {
   const shown = part.network.routes.length;
   const whole = part.whole ? '' : ' The server has more than this console takes.';
-  const left = part.left_out > 0 ? ` ${part.left_out} joints, parts or names are left out.` : '';
+  const left = part.left_out > 0 ? ` ${part.left_out} junctions, restrictions or names are left out.` : '';
   if (part.routes === 0) return `No routes are joined, none has a closed part or a named place.${whole}`;
-  if (shown === part.routes) return `${many(shown, 'route')}, ${many(part.joints, 'joint')}.${left}${whole}`;
+  if (shown === part.routes) return `${many(shown, 'route')}, ${many(part.joints, 'junction')}.${left}${whole}`;
   const of = query.around ? `${part.matched} that ${query.around} leads to or is reached from`
     : query.search ? `${part.matched} with “${query.search}”` : `${part.routes}`;
-  return `${shown} of ${of} are shown; the network has ${many(part.routes, 'route')} and ${many(part.joints, 'joint')}.${left}${whole}`;
+  return `${shown} of ${of} are shown; the network has ${many(part.routes, 'route')} and ${many(part.joints, 'junction')}.${left}${whole}`;
 }
 
-const modes = { send: 'Send a robot', way: 'Find a way', stretch: 'Close, open, limit', name: 'Name a place', join: 'Join' };
+const modes = { send: 'Send a robot', way: 'Find a path', stretch: 'Close, open, limit', name: 'Name a place', join: 'Join' };
 type Mode = keyof typeof modes;
 
 // What a click on a route fills in.
@@ -122,7 +122,7 @@ export function NetworkPage({ robots, live }: { robots: Robot[]; live: Route[] }
     else setDraft(clicked(mode, draft, place));
   };
   const edit = useCallback(async (words: string) => {
-    setAnswer({ ok: true, text: 'Told …' });
+    setAnswer({ ok: true, text: 'Sending …' });
     const { ok, now, why } = await editNetwork(words);
     setAnswer({ ok, text: ok ? done(now, words) : why });
     if (ok) setDraft(noDraft);
@@ -154,7 +154,7 @@ export function NetworkPage({ robots, live }: { robots: Robot[]; live: Route[] }
     <section className="network" aria-label="Network">
       <Search key={query.around} query={query} onQuery={setQuery} />
       <p role="status" className={why ? 'answer bad' : 'note'}>
-        {why ? `⚠ ${why}${part ? ' What is drawn is from before.' : ''}` : part ? counted(part, query) : 'Asks how routes are joined …'}
+        {why ? `⚠ ${why}${part ? ' What is drawn is from before.' : ''}` : part ? counted(part, query) : 'Loading the network …'}
       </p>
       {layout && rows.length > 0 && (
         <NetworkMap layout={layout} still={still!.rows} chosen={chosen} onChoose={setChosen} onPlace={onPlace} overlay={overlay} />

@@ -28,7 +28,7 @@ export function Passing({ name, id, again }: { name: string; id: string; again: 
     metBy(name, id).then((reply) => still && setMet(reply));
     return () => { still = false; };
   }, [name, id, again]);
-  if (met === null) return <p className="note">Asks which routes pass here …</p>;
+  if (met === null) return <p className="note">Loading the routes that pass here …</p>;
   if (typeof met === 'string') return <p className="note" role="status">Which routes pass here: {met}</p>;
   const { called, part: { network, left_out } } = met;
   const places = [
@@ -45,7 +45,7 @@ export function Passing({ name, id, again }: { name: string; id: string; again: 
       <h3>Routes that pass here</h3>
       {places.length > 0 && <ul className="plain">{places.map((each, i) => <Place key={i} called={called} {...each} />)}</ul>}
       <p className="note">
-        {places.length === 0 && 'No other route is known to pass. '}{left_out > 0 && `${left_out} joints are left out. `}
+        {places.length === 0 && 'No other route is known to pass. '}{left_out > 0 && `${left_out} junctions are left out. `}
         <a href="#network">The network</a> is where routes are joined, and what is proposed is confirmed.
       </p>
     </section>

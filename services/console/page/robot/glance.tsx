@@ -67,9 +67,9 @@ function pull(robot: string, canvas: HTMLCanvasElement, tell: (look: Look) => vo
 
 // The colours and shapes of the picture's marks.
 export const marks = [
-  { label: 'in its funnel lane', colour: '#00c878', shape: 'M8 4a4 4 0 1 0 0.01 0z' },
-  { label: 'asks for left', colour: '#46aaff', shape: 'M3 8 13 3v10z' },
-  { label: 'asks for right', colour: '#ff9600', shape: 'M13 8 3 3v10z' },
+  { label: 'on course', colour: '#00c878', shape: 'M8 4a4 4 0 1 0 0.01 0z' },
+  { label: 'steer left', colour: '#46aaff', shape: 'M3 8 13 3v10z' },
+  { label: 'steer right', colour: '#ff9600', shape: 'M13 8 3 3v10z' },
   { label: 'rejected', colour: '#e62828', shape: 'M3 3 13 13M13 3 3 13' },
 ];
 
@@ -109,11 +109,11 @@ export function Glance({ robot }: { robot: Robot }) {
         {look.why !== null && <p className="why">{look.why}</p>}
       </div>
       <dl>
-        {look.text && <><dt>Sees</dt><dd>{look.text}</dd></>}
+        {look.text && <><dt>View</dt><dd>{look.text}</dd></>}
         {robot.along_m !== null && (
-          <><dt>Along</dt><dd>{robot.along_m.toFixed(2)} m{robot.length_m !== null && ` of ${robot.length_m.toFixed(2)} m`}, segment {robot.segment}</dd></>
+          <><dt>Position</dt><dd>{robot.along_m.toFixed(2)} m{robot.length_m !== null && ` of ${robot.length_m.toFixed(2)} m`}, segment {robot.segment}</dd></>
         )}
-        {place !== null && <><dt>Beside</dt><dd>{place}</dd></>}
+        {place !== null && <><dt>Lateral offset</dt><dd>{place}</dd></>}
       </dl>
       {look.marked && <MarksLegend />}
     </figure>

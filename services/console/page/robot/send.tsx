@@ -67,9 +67,9 @@ export function Send({ robot, onAnswer }: {
       window.clearTimeout(timer);
     };
   }, [prefix]);
-  if (found === null) return <p className="note">Asks for routes …</p>;
+  if (found === null) return <p className="note">Loading routes …</p>;
   const { of, page } = found;
-  const why = of !== prefix ? 'Asks …' : typeof page === 'string' ? `⚠ ${page}` : '';
+  const why = of !== prefix ? 'Loading …' : typeof page === 'string' ? `⚠ ${page}` : '';
   const routes = typeof page === 'string' ? [] : page.routes;
   const total = typeof page === 'string' ? 0 : page.total;
   const route = routes.find((each) => each.route === chosen) ?? routes[0];

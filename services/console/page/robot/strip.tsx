@@ -139,7 +139,7 @@ export function Legend() {
         </span>
       ))}
       <span><svg width="22" height="18" aria-hidden="true"><path className="weak" d="M0 9H22" /></svg>weak: followers may be unsure</span>
-      <span><svg width="22" height="18" aria-hidden="true"><path className="doubted" d="M0 9H22" /></svg>they were (± {kUnsure_m} m and more) while this page was open</span>
+      <span><svg width="22" height="18" aria-hidden="true"><path className="doubted" d="M0 9H22" /></svg>position uncertain this session (± {kUnsure_m} m and more)</span>
       <span><svg width="22" height="18" aria-hidden="true"><rect className="unsure" x="4" width="14" y="1" height="16" rx="4" /></svg>the taller, the less sure a robot is</span>
     </p>
   );
@@ -159,7 +159,7 @@ export function Lines({ robots }: { robots: Robot[] }) {
   if (routes.size === 0) return null;
   return (
     <section className="lines" aria-label="Routes with robots on them">
-      <h2>On their way</h2>
+      <h2>Active routes</h2>
       {[...routes].map(([key, on]) => (
         <figure key={key}>
           <figcaption>{on[0].route}</figcaption>

@@ -173,7 +173,7 @@ export function Teaching({ robot, onAnswer }: { robot: Robot; onAnswer: (answer:
   const told = trouble || (drives && !held ? robot.detail : '');
   const end = async (order: 'end' | 'cancel') => {
     hold(kCentre);
-    onAnswer({ ok: true, text: order === 'end' ? 'End: told …' : 'Discard: told …' });
+    onAnswer({ ok: true, text: order === 'end' ? 'Sending End …' : 'Sending Discard …' });
     onAnswer(await tell(robot.name, order));
   };
   return (
@@ -193,7 +193,7 @@ export function Teaching({ robot, onAnswer }: { robot: Robot; onAnswer: (answer:
               : drives ? 'You drive. Let go and it stands.'
               : 'Put your thumb on the pad, or click it and hold W A S D or the arrow keys. Or drive the robot by its own joystick.'}
           </p>
-          <label htmlFor={`${id}s`}>At most
+          <label htmlFor={`${id}s`}>Max speed
             <select id={`${id}s`} value={speed} onChange={(event) => setSpeed(event.target.value)}>
               <option value="0.15">0.15 m/s</option>
               <option value="0.3">0.3 m/s</option>

@@ -1,5 +1,6 @@
 import { Fragment, useEffect, useState, type FormEvent } from 'react';
 import { get, type Changes } from '../api';
+import { when } from '../fleet';
 
 // As `trailcast routes --since` has them.
 const moments = { today: 'Today', yesterday: 'Yesterday', monday: 'Monday', '7d': '7 days', '30d': '30 days' };
@@ -9,7 +10,7 @@ const kLately = '30d';
 const kLatelyShown = 10;
 
 const many = (count: number) => `${count} change${count === 1 ? '' : 's'}`;
-const at = (unix_ms: number) => new Date(unix_ms).toLocaleString();
+const at = when;
 const addressOf = (since: string) => `#routes/since=${encodeURIComponent(since)}`;
 
 // Since when what is open on the page of routes tells what was changed; null: it is something else.
@@ -68,7 +69,7 @@ export function ChangesSince({ since }: { since: string }) {
   const isError = typeof changes === 'string';
   const list = changes && !isError ? changes.history.changes : [];
   const total = changes && !isError ? changes.history.total : 0;
-  const told = changes === null ? 'Asks …'
+  const told = changes === null ? 'Loading …'
     : isError ? `⚠ ${changes}`
     : `${total === 0 ? 'Nothing was changed' : list.length < total ? `The last ${list.length} of ${total} changes` : many(total)} since ${at(changes.since_unix_ms)}.${beforeThat(changes)}`;
   return (
@@ -77,16 +78,16 @@ export function ChangesSince({ since }: { since: string }) {
       <p role="status" className={isError ? 'answer bad' : 'note'}>{told}</p>
       {list.length > 0 && (
         <table>
-          <thead><tr><th>When</th><th>By</th><th>Route</th><th>What</th></tr></thead>
+          <thead><tr><th>When</th><th>Operator</th><th>Route</th><th>Change</th></tr></thead>
           <tbody>
             {list.map((each, i) => (
               <tr key={total - i}>
                 <td data-label="When">{at(each.at_unix_ms)}</td>
-                <td data-label="By">{each.by ?? 'not known'}</td>
+                <td data-label="Operator">{each.by ?? 'not known'}</td>
                 <td data-label="Route">
                   {each.routes.map((route, k) => <Fragment key={route}>{k > 0 && ', '}<a href={`#routes/${route}`}>{route}</a></Fragment>)}
                 </td>
-                <td data-label="What">{each.what}</td>
+                <td data-label="Change">{each.what}</td>
               </tr>
             ))}
           </tbody>
@@ -100,11 +101,11 @@ export function ChangesSince({ since }: { since: string }) {
 // The same of one route, by its id and name, and of late.
 export function ChangedLately({ route, again }: { route: string[]; again: unknown }) {
   const changes = useChanges({ since: kLately, route, limit: String(kLatelyShown) }, again);
-  if (changes === null) return <p className="note">Asks what was changed …</p>;
-  if (typeof changes === 'string') return <p className="note" role="status">What was changed of it: {changes}</p>;
+  if (changes === null) return <p className="note">Loading the activity log …</p>;
+  if (typeof changes === 'string') return <p className="note" role="status">Activity log: {changes}</p>;
   const { changes: list, total } = changes.history;
   return (
-    <section className="life" aria-label="What was changed of it">
+    <section className="life" aria-label="Activity log">
       <h3>Changed in the last 30 days</h3>
       {list.length > 0 && (
         <ul className="plain">

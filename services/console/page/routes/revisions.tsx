@@ -1,7 +1,7 @@
 import { useCallback, useEffect, useState, type ReactNode } from 'react';
 import { editRoute, get, type Answer, type FoundRoute, type RoutePage, type RouteAction } from '../api';
 import { ChangedLately } from './changes';
-import { age } from '../fleet';
+import { age, when } from '../fleet';
 import { Ground } from '../map/ground';
 import { useMay } from '../me';
 import { Passing } from '../network/passing';
@@ -20,8 +20,8 @@ function placeOf({ place }: FoundRoute): string {
 // What a revision is, a line each.
 const lines: [string, (route: FoundRoute) => ReactNode][] = [
   ['State', (route) => <strong>{route.state}</strong>],
-  ['Taught', (route) => <span title={new Date(route.taught_unix_ms).toLocaleString()}>{age(Date.now() - route.taught_unix_ms)} ago</span>],
-  ['By', (route) => route.scout],
+  ['Taught', (route) => <span title={when(route.taught_unix_ms)}>{age(Date.now() - route.taught_unix_ms)} ago</span>],
+  ['Taught by', (route) => route.scout],
   ['Camera', (route) => has(route.camera)],
   ['Length', (route) => (route.length_m > 0 ? `${route.length_m.toFixed(1)} m` : '–')],
   ['Segments', (route) => (
@@ -30,8 +30,8 @@ const lines: [string, (route: FoundRoute) => ReactNode][] = [
   ['Size', (route) => `${(route.bytes / 1000).toFixed(0)} kB`],
   ['Tags', (route) => has(route.tags.join(', '))],
   ['Begins at', (route) => has(placeOf(route))],
-  ['What', (route) => has(route.description)],
-  ['Held by', (route) => has(route.held_by.join(', '))],
+  ['Description', (route) => has(route.description)],
+  ['Stored on', (route) => has(route.held_by.join(', '))],
 ];
 
 function Confirm({ asked, name, onDone, onLeave }: {
@@ -44,7 +44,7 @@ function Confirm({ asked, name, onDone, onLeave }: {
     <div className="send">
       <p>{asked.what}</p>
       <Slide label={`Slide to ${words[asked.action].toLowerCase()} ${name}${asked.revision ? ` revision ${asked.revision}` : ''}`} onDone={onDone} />
-      <button onClick={onLeave}>Leave it</button>
+      <button onClick={onLeave}>Cancel</button>
     </div>
   );
 }
@@ -74,14 +74,14 @@ export function Revisions({ route }: { route: string }) {
   }, [route]);
   useEffect(() => void look(), [look]);
   const back = <p><a href="#routes">All routes</a></p>;
-  if (page === null) return <>{back}<p className="note">Asks …</p></>;
+  if (page === null) return <>{back}<p className="note">Loading …</p></>;
   if (typeof page === 'string') return <>{back}<p className="answer bad" role="status">⚠ {page}</p></>;
   const revisions = page.routes;
   if (revisions.length === 0) return <>{back}<p className="note">No server has this route.</p></>;
   const name = revisions[0].name;
   const carryOut = async ({ action, revision }: Asked) => {
     setAsked(null);
-    setAnswer({ ok: true, text: `${words[action]}: told …` });
+    setAnswer({ ok: true, text: `Sending ${words[action]} …` });
     setAnswer(await editRoute(route, action, revision));
     await look();
   };
@@ -123,7 +123,7 @@ export function Revisions({ route }: { route: string }) {
               ))}
             </tr>
             <tr>
-              <th scope="row">Do</th>
+              <th scope="row">Actions</th>
               {revisions.map((each) => (
                 <td key={each.teaching}>
                   <div className="orders">

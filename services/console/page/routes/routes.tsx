@@ -2,7 +2,7 @@ import { memo, useEffect, useRef, useState, type ChangeEvent, type FormEvent } f
 import { get, type FoundRoute, type RoutePage } from '../api';
 import { ChangesSince, sinceOf } from './changes';
 import { Finder } from './finder';
-import { age } from '../fleet';
+import { age, when } from '../fleet';
 import { Revisions } from './revisions';
 
 type Search = Record<string, string>;
@@ -69,11 +69,11 @@ const Line = memo(function Line({ route, now_ms }: { route: FoundRoute; now_ms: 
       <td data-label="Revision">{route.revision || '–'}</td>
       <td data-label="State"><strong>{route.state}</strong></td>
       <td data-label="Length">{route.length_m > 0 ? `${route.length_m.toFixed(1)} m` : '–'}</td>
-      <td data-label="Taught" title={new Date(route.taught_unix_ms).toLocaleString()}>
+      <td data-label="Taught" title={when(route.taught_unix_ms)}>
         {age(now_ms - route.taught_unix_ms)} ago by {route.scout}
       </td>
       <td data-label="Tags">{route.tags.join(', ')}</td>
-      <td data-label="What">{route.description}</td>
+      <td data-label="Description">{route.description}</td>
     </tr>
   );
 });
@@ -101,8 +101,8 @@ function Listing({ now_ms }: { now_ms: number }) {
     setSearch(wanted);
   };
   const told = typeof page === 'string' ? `⚠ ${page}`
-    : page === null ? 'Asks …'
-    : page.total === 0 ? 'No route is so.'
+    : page === null ? 'Loading …'
+    : page.total === 0 ? 'No routes match.'
     : `${listed > routes.length ? `${listed - routes.length + 1} to ` : ''}${listed} of ${page.total}`;
   return (
     <>
@@ -111,7 +111,7 @@ function Listing({ now_ms }: { now_ms: number }) {
       {routes.length > 0 && (
         <table>
           <thead>
-            <tr><th>Route</th><th>Revision</th><th>State</th><th>Length</th><th>Taught</th><th>Tags</th><th>What</th></tr>
+            <tr><th>Route</th><th>Revision</th><th>State</th><th>Length</th><th>Taught</th><th>Tags</th><th>Description</th></tr>
           </thead>
           <tbody>{routes.map((each) => <Line key={each.route + each.teaching} route={each} now_ms={now_ms} />)}</tbody>
         </table>
@@ -131,8 +131,8 @@ export const Routes = memo(function Routes({ open, now_ms }: { open: string; now
     <section aria-label="Routes" className="routes">
       <h2>Routes</h2>
       <nav className="kinds" aria-label="Of what">
-        <a href="#routes" aria-current={since === null ? 'page' : undefined}>What there is</a>
-        <a href="#routes/since=7d" aria-current={since !== null ? 'page' : undefined}>What was changed</a>
+        <a href="#routes" aria-current={since === null ? 'page' : undefined}>All routes</a>
+        <a href="#routes/since=7d" aria-current={since !== null ? 'page' : undefined}>Activity log</a>
       </nav>
       {since === null ? <><Finder /><Listing now_ms={now_ms} /></> : <ChangesSince key={since} since={since} />}
     </section>

@@ -1,6 +1,6 @@
 import { useEffect, useState, type FormEvent } from 'react';
 import { get, type Command, type CommandPage, type Mission, type MissionPage } from '../api';
-import { age } from '../fleet';
+import { age, when } from '../fleet';
 import { RunPage } from './run';
 import { RunList, RunsOf } from './run-list';
 
@@ -8,7 +8,7 @@ type Search = Record<string, string>;
 
 const states = ['sent', 'accepted', 'refused', 'fetching', 'under way', 'paused', 'arrived', 'failed', 'cancelled', 'expired'];
 
-const at = (unix_ms: number) => new Date(unix_ms).toLocaleString();
+const at = when;
 
 function Filters({ ofMissions, onSearch }: { ofMissions: boolean; onSearch: (search: Search) => void }) {
   const submit = (event: FormEvent<HTMLFormElement>) => {
@@ -31,7 +31,7 @@ function Filters({ ofMissions, onSearch }: { ofMissions: boolean; onSearch: (sea
           </select>
         </label>
       )}
-      <label>By<input name="by" autoComplete="off" /></label>
+      <label>Operator<input name="by" autoComplete="off" /></label>
       <label>From<input name="from" type="datetime-local" /></label>
       <label>Until<input name="until" type="datetime-local" /></label>
       <button type="submit">Search</button>
@@ -59,7 +59,7 @@ function useRecords<Page extends { next: number }, Each>(
     // A search is another object each time, also where it asks for the same again.
   }, [path, search, before]);
   useEffect(() => setBefore(0), [search]);
-  const told = last === null ? 'Asks …'
+  const told = last === null ? 'Loading …'
     : typeof last === 'string' ? `⚠ ${last}`
     : records.length === 0 ? none : '';
   const next = last !== null && typeof last !== 'string' ? last.next : 0;
@@ -122,9 +122,9 @@ function MissionLine({ mission, now_ms }: { mission: Mission; now_ms: number }) 
           <button className="opens" aria-expanded={open} onClick={() => setOpen(!open)}>{mission.orders || '(not told)'}</button>
         </td>
         <td data-label="State"><strong>{mission.state}</strong></td>
-        <td data-label="After">{took_s > 0 ? age(1000 * took_s) : ''}</td>
+        <td data-label="Duration">{took_s > 0 ? age(1000 * took_s) : ''}</td>
         <td data-label="Why">{mission.detail}</td>
-        <td data-label="By">{mission.sent_by}</td>
+        <td data-label="Operator">{mission.sent_by}</td>
       </tr>
       {open && <tr className="opened"><td colSpan={7}><Life mission={mission} /></td></tr>}
     </>
@@ -140,7 +140,7 @@ function MissionHistory({ now_ms }: { now_ms: number }) {
       {told}
       {records.length > 0 && (
         <table>
-          <thead><tr><th>Sent</th><th>Robot</th><th>Orders</th><th>State</th><th>After</th><th>Why</th><th>By</th></tr></thead>
+          <thead><tr><th>Sent</th><th>Robot</th><th>Orders</th><th>State</th><th>Duration</th><th>Why</th><th>Operator</th></tr></thead>
           <tbody>
             {records.map((each) => <MissionLine key={`${each.robot} ${each.mission}`} mission={each} now_ms={now_ms} />)}
           </tbody>
@@ -160,12 +160,12 @@ function CommandHistory({ now_ms }: { now_ms: number }) {
       {told}
       {records.length > 0 && (
         <table>
-          <thead><tr><th>Given</th><th>By</th><th>Command</th><th>Whom</th><th>Why</th><th>Answers</th></tr></thead>
+          <thead><tr><th>Given</th><th>Operator</th><th>Command</th><th>Whom</th><th>Why</th><th>Answers</th></tr></thead>
           <tbody>
             {records.map((each, i) => (
               <tr key={`${each.given_unix_ms} ${i}`}>
                 <td data-label="Given" title={at(each.given_unix_ms)}>{age(now_ms - each.given_unix_ms)} ago</td>
-                <td data-label="By">{each.given_by}</td>
+                <td data-label="Operator">{each.given_by}</td>
                 <td data-label="Command"><strong>{each.command}</strong></td>
                 <td data-label="Whom">{each.whom}</td>
                 <td data-label="Why">{each.reason}</td>

@@ -1,6 +1,6 @@
 import { useEffect, useState, type DragEvent, type FormEvent } from 'react';
 import { get } from '../api';
-import { age } from '../fleet';
+import { age, when } from '../fleet';
 import { openLog, type RunsPage, type Summary } from './runs';
 
 type Search = { robot: string; route: string; mission: string };
@@ -87,22 +87,22 @@ export function RunList({ now_ms }: { now_ms: number }) {
         <label>Mission<input name="mission" autoComplete="off" /></label>
         <button type="submit">Search</button>
       </form>
-      {last === null && <p role="status" className="note">Asks …</p>}
+      {last === null && <p role="status" className="note">Loading …</p>}
       {typeof last === 'string' && <p role="status" className="answer bad">⚠ {last}</p>}
       {unread > 0 && <p role="status" className="note">{unread} more files are still looked at …</p>}
       {last !== null && typeof last !== 'string' && runs.length === 0 && unread === 0 && <p role="status" className="note">There is none.</p>}
       {runs.length > 0 && (
         <table className="runs">
-          <thead><tr><th>Began</th><th>Robot</th><th>Route</th><th>Ended</th><th>After</th><th>Far</th><th>Why</th><th>Mission</th></tr></thead>
+          <thead><tr><th>Began</th><th>Robot</th><th>Route</th><th>Ended</th><th>Duration</th><th>Distance</th><th>Why</th><th>Mission</th></tr></thead>
           <tbody>
             {runs.map((run) => (
               <tr key={run.run} className={run.state === 'ARRIVED' || run.under_way ? '' : 'failed'}>
-                <td data-label="Began" title={new Date(began(run)).toLocaleString()}>{age(now_ms - began(run))} ago</td>
+                <td data-label="Began" title={when(began(run))}>{age(now_ms - began(run))} ago</td>
                 <td data-label="Robot">{run.robot}</td>
                 <td data-label="Route"><a href={`#history/run-${run.run}`}>{run.route || run.file}</a></td>
                 <td data-label="Ended"><strong>{ended(run)}</strong></td>
-                <td data-label="After">{age(1000 * run.lasted_s)}</td>
-                <td data-label="Far">{far(run)}</td>
+                <td data-label="Duration">{age(1000 * run.lasted_s)}</td>
+                <td data-label="Distance">{far(run)}</td>
                 <td data-label="Why">{run.reason}</td>
                 <td data-label="Mission">{run.mission && <code>{run.mission}</code>}</td>
               </tr>

@@ -2,10 +2,11 @@ import { useEffect, useMemo, useRef, useState } from 'react';
 import { FramePicture } from './frame';
 import { RunStrip, StripLegend } from './run-strip';
 import { useFrame, useRun, useSeen, type Axis, type Run } from './runs';
+import { when } from '../fleet';
 
 const kLeap = 10;
 
-const started = (run: Run) => (run.began_unix_ms === null ? '' : new Date(run.began_unix_ms).toLocaleString());
+const started = (run: Run) => (run.began_unix_ms === null ? '' : when(run.began_unix_ms));
 
 // Arrow keys go from frame to frame, with shift ten at once, also where nothing has the focus.
 function useKeys(step: (by: number) => void, to: (row: number) => void, rows: number) {
@@ -60,7 +61,7 @@ function Story({ run, row, onRow }: { run: Run; row: number; onRow: (row: number
       </ol>
       {story.lesser > 0 && <p className="note">and {story.lesser} lesser things</p>}
       <details>
-        <summary>In figures</summary>
+        <summary>Statistics</summary>
         <pre>{story.figures.join('\n')}</pre>
       </details>
     </section>
@@ -96,7 +97,7 @@ function Frames({ run, axis, onAxis }: { run: Run; axis: Axis; onAxis: (axis: Ax
           <button aria-pressed={plays} onClick={() => setPlays(!plays)}>{plays ? 'Halt' : 'Play'}</button>
           <button aria-label="One frame on" onClick={() => step(1)}>›</button>
           <button aria-label="Ten frames on" onClick={() => step(kLeap)}>10 »</button>
-          <button disabled={after >= run.rows} onClick={() => to(after)}>What comes next</button>
+          <button disabled={after >= run.rows} onClick={() => to(after)}>Next event</button>
           <label className="axis">Along
             <select value={axis} onChange={(event) => onAxis(event.target.value as Axis)}>
               <option value="metres">metres</option>
