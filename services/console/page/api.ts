@@ -231,7 +231,7 @@ export async function editRoute(route: string, action: RouteAction, revision: nu
 
 // Where a picture was taken, the likest first, and how much was searched.
 export type Found = {
-  places: { name: string; route: string; revision: number; segment: number; segments: number; score: number }[];
+  places: { name: string; route: string; revision: number; state: string; segment: number; segments: number; score: number }[];
   segments_indexed: number;
   segments_stored: number;
   routes_unseen: number;

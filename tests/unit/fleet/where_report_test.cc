@@ -17,6 +17,8 @@ exchange::CatalogReply Reply() {
   info.revision = RevisionNumber(3);
   info.name = "aisle-3";
   info.segment_count = 18;
+  info.state = route::RouteState::kComplete;
+  info.standing = route::Standing::kActive;
   reply.page.routes = {info};
   reply.places = {{info.key, SegmentIndex(7), 0.625}};
   reply.coverage = {1200, 1200, 0};
@@ -25,6 +27,13 @@ exchange::CatalogReply Reply() {
 
 TEST(WhereText, TellsRouteRevisionSegmentAndScore) {
   EXPECT_EQ(WhereText(Reply()), "route aisle-3 0123456@3, segment 7 of 18, score 0.62\n");
+}
+
+TEST(WhereText, SaysOfARevisionThatIsNotFollowedWhatItIs) {
+  exchange::CatalogReply reply = Reply();
+  reply.page.routes[0].standing = route::Standing::kRetired;
+  EXPECT_EQ(WhereText(reply), "route aisle-3 0123456@3 (retired), segment 7 of 18, score 0.62\n");
+  EXPECT_EQ(WhereJson(reply)["places"][0]["state"], "retired");
 }
 
 TEST(WhereText, SaysThatNoneLooksLikeThis) {

@@ -26,7 +26,7 @@ function Places({ found }: { found: Found }) {
       <ol className="places" aria-label="Where it was taken">
         {found.places.map((place) => (
           <li key={`${place.route} ${place.revision} ${place.segment}`}>
-            <a href={`#routes/${place.route}`}>{place.name}</a> revision {place.revision}, segment {place.segment} of {place.segments}
+            <a href={`#routes/${place.route}`}>{place.name}</a> revision {place.revision}{place.state !== 'active' && <strong> ({place.state})</strong>}, segment {place.segment} of {place.segments}
             <meter min={0} max={1} value={place.score} aria-label={`likeness ${Math.round(100 * place.score)} %`} /> {Math.round(100 * place.score)} %
           </li>
         ))}

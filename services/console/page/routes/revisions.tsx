@@ -1,4 +1,4 @@
-import { useCallback, useEffect, useState, type ReactNode } from 'react';
+import { useCallback, useEffect, useRef, useState, type ReactNode } from 'react';
 import { editRoute, get, type Answer, type FoundRoute, type RoutePage, type RouteAction } from '../api';
 import { ChangedLately } from './changes';
 import { age, when } from '../fleet';
@@ -40,8 +40,11 @@ function Confirm({ asked, name, onDone, onLeave }: {
   onDone: () => void;
   onLeave: () => void;
 }) {
+  const here = useRef<HTMLDivElement>(null);
+  // The button that asks for it may be far below.
+  useEffect(() => here.current?.scrollIntoView({ block: 'center' }), []);
   return (
-    <div className="send">
+    <div className="send" ref={here}>
       <p>{asked.what}</p>
       <Slide label={`Slide to ${words[asked.action].toLowerCase()} ${name}${asked.revision ? ` revision ${asked.revision}` : ''}`} onDone={onDone} />
       <button onClick={onLeave}>Cancel</button>

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "services/program/json.h"
+#include "services/route/labels.h"
 #include "services/route/route_ref.h"
 
 namespace trailcast::fleet {
@@ -31,8 +32,11 @@ std::string WhereText(const exchange::CatalogReply& reply) {
   std::string text;
   const route::ShortIds ids(reply.page.routes);
   for (const auto& [place, route] : PlacesIn(reply)) {
-    text += fmt::format("route {} {}, segment {} of {}, score {:.2f}\n", route.name, ids.Of(route),
-                        place.segment.value(), route.segment_count, place.score);
+    const bool is_followed = route.standing == route::Standing::kActive;
+    text +=
+        fmt::format("route {} {}{}, segment {} of {}, score {:.2f}\n", route.name, ids.Of(route),
+                    is_followed ? "" : fmt::format(" ({})", route::StateText(route)),
+                    place.segment.value(), route.segment_count, place.score);
   }
   const route::ViewCoverage& searched = reply.coverage;
   if (text.empty()) {
@@ -52,6 +56,7 @@ program::Json WhereJson(const exchange::CatalogReply& reply) {
     places.push_back({{"name", route.name},
                       {"route", place.key.route.value()},
                       {"revision", route.revision.value()},
+                      {"state", route::StateText(route)},
                       {"segment", place.segment.value()},
                       {"segments", route.segment_count},
                       {"score", program::Rounded(place.score, 1000.0)}});
