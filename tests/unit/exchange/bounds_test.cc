@@ -123,5 +123,29 @@ TEST(CheckBounds, RefusesOdometryThatNobodyCouldTrustSo) {
   ExpectRefused(status, "carried by");
 }
 
+TEST(CheckBounds, RefusesWhatNobodyHears) {
+  const ReachReport good{.agent = AgentId("r"),
+                         .client = AgentId("o"),
+                         .heard = {{.agent = AgentId("s"), .late_ms = -1.0}}};
+  EXPECT_TRUE(CheckBounds(good));
+  const auto with = [&](const auto& spoil) {
+    ReachReport message = good;
+    spoil(message.heard.front());
+    return message;
+  };
+  static constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+  ExpectRefused(with([](HeardAgent& h) { h.agent = AgentId(""); }), "heard agent");
+  ExpectRefused(with([](HeardAgent& h) { h.role = static_cast<AgentRole>(9); }), "role");
+  ExpectRefused(with([](HeardAgent& h) { h.late_ms = kNotANumber; }), "under way");
+  ExpectRefused(with([](HeardAgent& h) { h.round_trip_ms = kNotANumber; }), "there and back");
+  ExpectRefused(with([](HeardAgent& h) { h.address.assign(kMaxAddressBytes + 1, '1'); }),
+                "address");
+  ExpectRefused(with([](HeardAgent& h) { h.network = "a\nb"; }), "network interface");
+  ReachReport many = good;
+  many.heard.resize(kMaxHeardAgents + 1, good.heard.front());
+  ExpectRefused(many, "agents heard");
+  ExpectRefused(ReachRequest{.client = AgentId("o"), .relayed = true}, "server");
+}
+
 }  // namespace
 }  // namespace trailcast::exchange
