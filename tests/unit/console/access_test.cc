@@ -127,7 +127,7 @@ TEST_F(AccessTest, WhoLogsInIsKnownUntilTheyLogOut) {
   const httplib::Headers anna = As("anna");
   EXPECT_EQ(Get("/api/me", anna).body["user"], "anna");
   EXPECT_EQ(Get("/api/state", anna).status, 200);
-  EXPECT_EQ(Post("/api/robots/robot1/stop", anna).status, 404) << "no robot is there";
+  EXPECT_EQ(Post("/api/robots/robot1/stop", anna).status, 504) << "no robot is there";
   EXPECT_EQ(Post("/api/log-out", anna).status, 200);
   EXPECT_EQ(Get("/api/state", anna).status, 401);
   EXPECT_EQ(LogIn("anna", "wrong horse").status, 401);
@@ -166,7 +166,7 @@ TEST_F(AccessTest, ACookieAloneTellsRobotsNothing) {
 TEST_F(AccessTest, AProgramSendsItsToken) {
   const httplib::Headers wms{{"Authorization", "Bearer token"}};
   EXPECT_EQ(Get("/api/me", wms).body["user"], "wms");
-  EXPECT_EQ(Post("/api/robots/robot1/stop", wms).status, 404);
+  EXPECT_EQ(Post("/api/robots/robot1/stop", wms).status, 504);
   EXPECT_EQ(Get("/api/me", {{"Authorization", "Bearer wrong"}}).status, 401);
   EXPECT_EQ(Get("/api/me", {{"Authorization", "Basic dG9rZW4="}}).status, 401);
   httplib::Headers both = As("anna");
@@ -178,8 +178,8 @@ TEST_F(AccessTest, RobotsAreToldWhoGaveAnOrder) {
   using exchange::Topic;
   const auto robot = bus_.Open({.write = {}, .read = {Topic::kNow, Topic::kMissions}});
   const httplib::Headers anna = As("anna");
-  EXPECT_EQ(Post("/api/robots/robot1/stop", anna, {{"reason", "rain"}}).status, 404);
-  EXPECT_EQ(Post("/api/robots/robot1/pause", anna).status, 404);
+  EXPECT_EQ(Post("/api/robots/robot1/stop", anna, {{"reason", "rain"}}).status, 504);
+  EXPECT_EQ(Post("/api/robots/robot1/pause", anna).status, 504);
   EXPECT_EQ(Post("/api/robots/robot1/missions", anna, {{"orders", "wait 5"}}).status, 504);
   std::set<std::string> said;
   for (const exchange::Message& message : robot->Take(milliseconds(1000))) {
@@ -226,7 +226,7 @@ TEST_F(AccessTest, WithoutUsersWhoeverIsThereMayAll) {
   Open({});
   EXPECT_EQ(Get("/api/me").body["role"], "administer");
   EXPECT_EQ(Get("/api/me").body["logs_in"], false);
-  EXPECT_EQ(Post("/api/robots/robot1/stop").status, 404);
+  EXPECT_EQ(Post("/api/robots/robot1/stop").status, 504);
   EXPECT_EQ(LogIn("anna", kPassword).status, 404);
 }
 

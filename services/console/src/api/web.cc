@@ -50,6 +50,7 @@ bool MakesStand(NowOrder order) {
   return order != NowOrder::kResume && order != NowOrder::kRelease;
 }
 
+// A robot that nobody has ever heard may be there all the same, and was told: it did not answer.
 int StatusOf(const std::vector<fleet::RobotsWord>& words) {
   switch (fleet::ObeyedBy(words)) {
     case fleet::Obeyed::kByAll:
@@ -59,8 +60,7 @@ int StatusOf(const std::vector<fleet::RobotsWord>& words) {
     case fleet::Obeyed::kUnanswered:
       break;
   }
-  const bool is_one = words.size() == 1;
-  return is_one && !words.front().known ? 404 : 504;
+  return 504;
 }
 
 // Robots and servers know the console alone, and who it is of its users from this.
