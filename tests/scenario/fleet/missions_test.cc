@@ -74,8 +74,8 @@ TEST_F(MissionsTest, ASecondOneAndOnesThatCannotBeDoneAreRefusedInWords) {
   EXPECT_TRUE(agent_->WaitForOutput("cancelled by an operator")) << agent_->output();
   EXPECT_THAT(Missions({"--state", "cancelled"}).output,
               AllOf(HasSubstr("long"), Not(HasSubstr("attic"))));
-  EXPECT_THAT(Missions({"--commands"}).output,
-              AllOf(HasSubstr("operator  cancel   robot1"), HasSubstr("mission cancelled by operator")));
+  EXPECT_THAT(Missions({"--commands"}).output, AllOf(HasSubstr("operator  cancel   robot1"),
+                                                     HasSubstr("mission cancelled by operator")));
   EXPECT_EQ(Send({"dance"}).status, 2);
 }
 
