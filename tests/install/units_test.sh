@@ -40,7 +40,8 @@ give_keys() {
     mkdir "$1/var/lib/${member#*:}"
     cp -r "$1/root/fleet/members/${member%:*}" "$1/var/lib/${member#*:}/keys"
   done
-  sed -i 's#^security = .*#security = "keys"#' "$1/etc/trailcast/agent.toml"
+  sed -i -e 's#^security = .*#security = "keys"#' -e 's#^network-interface = .*#network-interface = "lo"#' \
+    "$1/etc/trailcast/agent.toml"
 }
 
 # In namespaces of its own, and a control group's.

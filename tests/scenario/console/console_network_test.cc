@@ -93,7 +93,7 @@ TEST_F(ConsoleNetworkTest, RoutesAreJoinedClosedAndARobotIsSentToAPlaceUponThem)
   ASSERT_TRUE(HasClosed(browser, 1)) << browser.Text();
   EXPECT_EQ(Network()["closed"].size(), 1U);
 
-  ASSERT_TRUE(browser.Click(Mode("Find a way")));
+  ASSERT_TRUE(browser.Click(Mode("Find a path")));
   ASSERT_TRUE(browser.Type(Field("From"), "hall@1"));
   ASSERT_TRUE(browser.Type(Field("To"), "office@1.55"));
   ASSERT_TRUE(browser.Click(Button("Find a path")));

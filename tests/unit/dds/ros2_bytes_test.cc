@@ -189,9 +189,9 @@ TEST_P(Ros2GoldenTest, AnothersCodeWritesTheBytesThatAreReadHere) {
 TEST_P(Ros2GoldenTest, CommandsAreWrittenAsByAnothersCode) {
   const auto theirs = Golden(GetParam());
   const Ros2Command command{.stamp = kTheirs, .velocity = {0.5, -0.25}};
-  for (const auto& [type, name] :
-       {std::pair{Ros2CommandType::kTwist, "geometry_msgs/Twist"},
-        std::pair{Ros2CommandType::kTwistStamped, "geometry_msgs/TwistStamped"}}) {
+  for (const auto type : {Ros2CommandType::kTwist, Ros2CommandType::kTwistStamped}) {
+    const char* name =
+        type == Ros2CommandType::kTwist ? "geometry_msgs/Twist" : "geometry_msgs/TwistStamped";
     const auto written = WithRos2Wire(command, type, [&](const void* sample) -> Result<void> {
       dds_ostreamLE_t stream;
       dds_ostreamLE_init(&stream, 0, CDR_ENC_VERSION_1);

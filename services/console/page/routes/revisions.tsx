@@ -42,7 +42,9 @@ function Confirm({ asked, name, onDone, onLeave }: {
 }) {
   const here = useRef<HTMLDivElement>(null);
   // The button that asks for it may be far below.
-  useEffect(() => here.current?.scrollIntoView({ block: 'center' }), []);
+  useEffect(() => {
+    here.current?.scrollIntoView({ block: 'center' });
+  }, []);
   return (
     <div className="send" ref={here}>
       <p>{asked.what}</p>
