@@ -170,7 +170,7 @@ TEST_F(SharingTest, AnInterruptedScoutKeepsWhatItTaught) {
   EXPECT_THAT(ended.output, HasSubstr("segments="));
   const auto other = RunAgent(
       {"replay", "--frames", Walk("walk", 2), "--route", "hell", "--store", Path("scout.db")});
-  EXPECT_THAT(other.output, HasSubstr("it has: hall"));
+  EXPECT_THAT(other.output, HasSubstr("did you mean 'hall'?"));
 }
 
 TEST_F(SharingTest, AnInterruptedFollowerEndsSoonAndSaysSo) {
