@@ -180,7 +180,7 @@ TEST_F(ConsolePeopleTest, AnOperatorPausesOneOfThreeRobotsAndWhoLooksSeesIt) {
         << "wherever one has scrolled to";
   }
   EXPECT_TRUE(WaitForCard(*anna, "robot1", "will not arrive")) << "its Stop";
-  EXPECT_THAT(anna->Text(), HasSubstr("Stop all will not arrive"));
+  EXPECT_THAT(anna->Text(), HasSubstr("Stop all\nwill not arrive"));
 }
 
 }  // namespace
