@@ -33,8 +33,6 @@ constexpr double kDoubted = 0.85;
 constexpr double kBelieved = 0.3;
 constexpr double kThere = 0.5;  // of where the belief holds the robot to be; the route's units
 constexpr double kTurns_rad_per_m = 1.0;
-// Fewer tracked features do not tell whether a robot moves that goes by its views.
-constexpr int kFewForFlow = 20;
 constexpr double kUnknownScale = 0.3;  // of a way
 
 vision::IntakeOptions IntakeOf(const ReplayMethodOptions& options) {
@@ -208,7 +206,7 @@ ReplayStep ReplaySession::State::Follow(const Seen& seen) {
   if (ByViews()) {
     steers_by_views = true;
     ReplayStep views = by_views.Step(seen.looked_s);
-    if (eyes.tracker().count() < kFewForFlow) eyes.tracker().Detect();
+    eyes.tracker().Detect();  // whose flow tells whether the robot moves
     standing = StandingOf(views);
     return views;
   }
