@@ -178,14 +178,14 @@ const std::vector<Library> kLibraries{
 // Headers of the system itself; anything else in angle brackets with a slash or a ".h" must be a
 // library of the list above.
 const std::set<std::string> kSystemHeaders{
-    "dirent.h",       "dlfcn.h",        "errno.h",      "fcntl.h",      "ifaddrs.h",
-    "malloc.h",       "netdb.h",        "poll.h",       "pthread.h",    "pwd.h",
-    "sched.h",        "signal.h",       "spawn.h",      "termios.h",    "time.h",
-    "unistd.h",       "arpa/inet.h",    "net/if.h",     "netinet/in.h", "sys/epoll.h",
-    "sys/eventfd.h",  "sys/file.h",     "sys/ioctl.h",  "sys/mman.h",   "sys/prctl.h",
-    "sys/resource.h", "sys/signalfd.h", "sys/socket.h", "sys/stat.h",   "sys/statvfs.h",
-    "sys/time.h",     "sys/timerfd.h",  "sys/timex.h",  "sys/types.h",  "sys/un.h",
-    "sys/utsname.h",  "sys/wait.h"};
+    "dirent.h",      "dlfcn.h",        "errno.h",         "fcntl.h",      "ifaddrs.h",
+    "malloc.h",      "netdb.h",        "poll.h",          "pthread.h",    "pwd.h",
+    "sched.h",       "signal.h",       "spawn.h",         "termios.h",    "time.h",
+    "unistd.h",      "arpa/inet.h",    "linux/sockios.h", "net/if.h",     "netinet/in.h",
+    "sys/epoll.h",   "sys/eventfd.h",  "sys/file.h",      "sys/ioctl.h",  "sys/mman.h",
+    "sys/prctl.h",   "sys/resource.h", "sys/signalfd.h",  "sys/socket.h", "sys/stat.h",
+    "sys/statvfs.h", "sys/time.h",     "sys/timerfd.h",   "sys/timex.h",  "sys/types.h",
+    "sys/un.h",      "sys/utsname.h",  "sys/wait.h"};
 
 // Whether it is among the sources of a room that the file at `where` is not in.
 bool IsPrivateElsewhere(const std::string& header, const std::string& where) {
