@@ -22,7 +22,7 @@ class Driving {
   // Robots' names come from strangers: more are not kept.
   static constexpr std::size_t kMostRobots = 256;
   static constexpr std::size_t kMostHeard = 1024;
-  // Who was not heard for so long hears nothing either.
+  // A robot that was not heard for so long does not hear this console either.
   static constexpr std::chrono::seconds kHeardWithin{10};
 
   struct Word {
@@ -31,7 +31,7 @@ class Driving {
     std::string driver{};       // a page, or a program
     std::uint64_t said_ms = 0;  // by its own clock
   };
-  // What a robot says of itself.
+  // Takes what a robot says of itself: driving goes to those alone that are heard and teach.
   void Note(const exchange::AgentStatus& status, Time now);
 
   enum class Verdict { kGood, kLate, kTaken, kUnknown, kTeachesNothing };

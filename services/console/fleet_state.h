@@ -55,7 +55,8 @@ class FleetState {
     AgentId robot{};
     std::string last_seen{};  // as fleet::LastSeenText
   };
-  // Those that operators' orders reach and that have not ended, heard or not: they may be moving.
+  // Returns the robots that take operators' orders and have not ended, heard or not: they may be
+  // moving.
   [[nodiscard]] std::vector<Known> MayMove(Time now) const;
   // A robot that has not answered a stop is told it again until it has, or stands by another's, or
   // has ended, or is released here. Of one that was never heard nothing is kept.
@@ -63,7 +64,7 @@ class FleetState {
   void KeepTelling(const AgentId& robot, const exchange::NowCommand& stop, Time told_at,
                    std::int64_t unix_ms);
   void Release(const AgentId& robot, Time now);
-  // What is to be said now of it.
+  // Returns the stops that are due to be told again now.
   [[nodiscard]] std::vector<exchange::NowCommand> TakeOpenStops(Time now);
   // Servers were asked for the last missions: that there are none is known from their answer.
   void AskedForMissions(std::uint64_t request) { asked_for_missions_ = request; }
@@ -84,7 +85,7 @@ class FleetState {
     std::string route{};
     exchange::PlaceOnRoute place{};
   };
-  // That a robot did not answer.
+  // A stop that its robot has not answered yet.
   struct OpenStop {
     exchange::NowCommand command{};
     std::int64_t since_unix_ms = 0;

@@ -13,8 +13,8 @@ struct Right {
   std::optional<users::Role> needs{};  // null: anybody, logged in or not
 };
 [[nodiscard]] Right RightTo(const std::string& method, const std::string& path);
-// What the path is there for, as the header Allow has it: "GET, POST". Empty: there is no such
-// path.
+// Returns the methods that the path takes, as the header Allow has them: "GET, POST". Empty: there
+// is no such path.
 [[nodiscard]] std::string MethodsOf(const std::string& path);
 
 }  // namespace trailcast::console

@@ -34,6 +34,9 @@ enum class Obeyed : std::uint8_t { kByAll, kNotByAll, kUnanswered };
 // "last seen 5 s ago, moving at 0.40 m/s"; without the time where it is heard.
 [[nodiscard]] std::string LastSeenText(const exchange::AgentStatus& status,
                                        std::optional<std::chrono::milliseconds> ago);
+// "last known on its mission 'follow hall', under way", as a server tells of a robot that is not
+// heard.
+[[nodiscard]] std::string LastKnownText(const mission::Record& record);
 
 // Tells robots what to do now, at once and again until each has answered or `timeout` has passed,
 // and returns what they said, by name: each that was named, and, of a route or of all, each

@@ -113,6 +113,11 @@ std::string LastSeenText(const exchange::AgentStatus& status, std::optional<mill
   return fmt::format("last seen {} ago, {}", Age(ago->count()), doing);
 }
 
+std::string LastKnownText(const mission::Record& record) {
+  return fmt::format("last known on its mission '{}', {}", record.mission.orders,
+                     mission::ToString(record.last.state));
+}
+
 std::string StandText(const std::vector<RobotsWord>& words) {
   std::size_t stand = 0;
   std::string others;

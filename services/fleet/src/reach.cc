@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "services/base/time.h"
+#include "services/fleet/robot_state.h"
 #include "services/program/json.h"
 
 namespace trailcast::fleet {
@@ -14,20 +15,6 @@ namespace {
 using exchange::AgentRole;
 using exchange::HeardAgent;
 using std::chrono::milliseconds;
-
-const char* RoleText(AgentRole role) {
-  switch (role) {
-    case AgentRole::kServer:
-      return "server";
-    case AgentRole::kScout:
-      return "scout";
-    case AgentRole::kFollower:
-      return "follower";
-    case AgentRole::kOperator:
-      break;
-  }
-  return "operator";
-}
 
 // A server is in all meshes, and answers stars.
 const char* DiscoveryText(const Reach::Member& member) {
@@ -233,7 +220,7 @@ std::string ReachText(const Reach& reach) {
   }
   std::size_t next = 0;
   for (const Reach::Member& member : reach.members) {
-    const char* role = member.role ? RoleText(*member.role) : "-";
+    const char* role = member.role ? ToText(*member.role) : "-";
     std::string who = member.name.value();
     const auto line = [&](const std::string& by, const HeardAgent* heard) {
       const auto ms = [](double value) { return fmt::format("{:.1f} ms", value); };
@@ -270,7 +257,7 @@ nlohmann::ordered_json ReachJson(const Reach& reach) {
     const std::string discovery = DiscoveryText(member);
     members.push_back(
         {{"name", member.name.value()},
-         {"role", member.role ? program::Json(RoleText(*member.role)) : program::Json(nullptr)},
+         {"role", member.role ? program::Json(ToText(*member.role)) : program::Json(nullptr)},
          {"discovery", discovery == "-" ? program::Json(nullptr) : program::Json(discovery)},
          {"answers", member.star.has_value()},
          {"heard_by", std::move(heard_by)}});

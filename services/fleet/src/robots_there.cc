@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/fleet/following_words.h"
+#include "services/fleet/now_client.h"
 #include "services/program/json.h"
 
 namespace trailcast::fleet {
@@ -60,8 +61,7 @@ const char* ModeText(AgentMode mode) {
 std::string RobotsThere::DetailOf(const Robot& robot) {
   const bool on_mission = robot.mission && !mission::HasEnded(robot.mission->last.state);
   if (robot.heard || !on_mission) return robot.status.detail;
-  return fmt::format("last known on its mission '{}', {}", robot.mission->mission.orders,
-                     mission::ToString(robot.mission->last.state));
+  return LastKnownText(*robot.mission);
 }
 
 std::string RobotsThere::Says(const Robot& robot) {

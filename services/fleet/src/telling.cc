@@ -1,7 +1,5 @@
 #include "services/fleet/telling.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -71,8 +69,7 @@ void Telling::Expect(const mission::Record& record) {
            (each.whom == NowWhom::kOnRoute && routes.contains(each.name));
   });
   if (!is_meant || record.last.change == 0) return;  // it has not taken the mission
-  Expect(robot, fmt::format("last known on its mission '{}', {}", record.mission.orders,
-                            mission::ToString(record.last.state)));
+  Expect(robot, LastKnownText(record));
 }
 
 bool Telling::only_named() const {
