@@ -24,6 +24,7 @@ class ConfidenceTest : public ::testing::Test {
                     in_picture_,
                     left_sigma_m_,
                     std::exchange(carried_off_, false)};
+      seen.recognised = std::exchange(recognised_, false);
       seen.dt_s = dt_s_;
       verdict = confidence_.Judge(seen, moved);
     }
@@ -44,6 +45,7 @@ class ConfidenceTest : public ::testing::Test {
   int taught_ = kTaught;
   int vanish_ = 0;
   bool carried_off_ = false;  // in the next frame
+  bool recognised_ = false;   // the same
   double dt_s_ = 1.0 / 30.0;
 };
 
@@ -156,6 +158,23 @@ TEST_F(ConfidenceTest, WhoeverCoveredTheViewIsStillAboutAtTheNextHandOver) {
   EXPECT_EQ(See(15, 200).trust, Trust::kSure) << "gone now";
   NextSegment(20);
   EXPECT_EQ(See(0).trust, Trust::kBlind);
+}
+
+TEST_F(ConfidenceTest, AViewThatIsRecognisedUntilAllOfItIsGoneWasCovered) {
+  See(30);
+  Vanish(28);
+  recognised_ = true;
+  EXPECT_EQ(See(2).trust, Trust::kBlind) << "steered by the view as a whole";
+  EXPECT_EQ(See(1).trust, Trust::kCovered);
+}
+
+TEST_F(ConfidenceTest, WhoeverCoversAViewThatIsRecognisedForAMomentIsStillThere) {
+  See(30);
+  Vanish(28);
+  EXPECT_EQ(See(1, 60).trust, Trust::kCovered);
+  recognised_ = true;
+  EXPECT_EQ(See(2).trust, Trust::kBlind);
+  EXPECT_EQ(See(1, 60).trust, Trust::kCovered);
 }
 
 TEST_F(ConfidenceTest, IsLostWhenTheViewStaysCovered) {

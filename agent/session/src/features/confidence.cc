@@ -139,12 +139,9 @@ Verdict Confidence::Judge(const Sighting& seen,
   unsure_s_ += seen.dt_s;
   const bool gone = seen.agreeing < options_.min_features;
   covered_ = covered_ || (gone && sure_once_ && moved && CoveredNow(seen));
-  // Whatever hides the segment's features does not hide the view.
-  if (seen.recognised || seen.elsewhere) {
-    covered_ = false;
-    since_good_s_.reset();
-    since_covered_s_.reset();
-  }
+  // Whatever hides the segment's features does not hide the view yet. What was seen before is not
+  // forgotten: somebody who steps in front of the camera takes a moment to cover all of it.
+  if (seen.recognised || seen.elsewhere) covered_ = false;
   if (covered_) since_covered_s_ = 0.0;
   const bool by_distance = moved.has_value() && sure_once_;
   const Trust trust = Decide(seen, by_distance);
