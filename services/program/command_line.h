@@ -31,7 +31,7 @@ struct CommonOptions {
   std::string log_format = "text";
 };
 
-// Of all of the product's programs: "0.1.0".
+// The version of all programs, as "0.2.0": that of the CMake project.
 [[nodiscard]] const char* Version();
 
 // The group of the options that `--help` explains; it names those of other groups, which
