@@ -16,7 +16,7 @@ class ReplayLog {
   [[nodiscard]] std::size_t frames() const { return rows_.size(); }
   // CPU time of a step; 0 without frames.
   [[nodiscard]] double MedianMs() const;
-  // frame,segment,progress,features,turn_rad,state and more: see agent/README.md.
+  // frame,segment,progress,features,turn_rad,state and more: see docs/reference/agent.md.
   [[nodiscard]] Result<void> WriteCsv(const std::filesystem::path& file) const;
 
  private:

@@ -25,7 +25,7 @@ struct Terrain {
 
 // How rough that is. By the acceleration, where it is known: the borders are where ISO 2631-1 has
 // people who ride on it a little uncomfortable, uncomfortable, and very uncomfortable. By the
-// shaking otherwise, whose borders are our own (agent/README.md): it may be a class off.
+// shaking otherwise, whose borders are our own (docs/reference/agent.md): it may be a class off.
 enum class Roughness : std::uint8_t { kSmooth, kUneven, kRough, kVeryRough };
 
 struct RoughnessClass {
