@@ -17,8 +17,8 @@ namespace trailcast::trial {
 namespace {
 
 constexpr double kLapGap_m = 1.0;
-// Of segments for the printed methods: services/replay/README.md tells how it follows from the
-// paper's figures.
+// The longest segment of the printed methods, as it follows from the paper's figures
+// (docs/explanation/following.md).
 constexpr double kPrintedSegment_m = 0.4;
 
 Result<std::vector<agent::ReplayMethod>> FindMethods(const std::vector<std::string>& names) {
