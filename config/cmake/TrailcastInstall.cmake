@@ -23,6 +23,30 @@ install(FILES config/agent/agent.toml config/agent/camera.toml config/agent/car.
               config/agent/differential.toml config/agent/tracked.toml DESTINATION share/trailcast
         COMPONENT agent)
 
+# Man pages, made of what each program explains of itself, by the target `manpages`; and completion
+# for bash, which asks the programs.
+find_program(Gzip gzip REQUIRED)
+set(pages)
+foreach(program trailcast trailcast-agent trailcast-console trailcast-server)
+  set(component tools)
+  if(program MATCHES "-(agent|server)$")
+    set(component "${CMAKE_MATCH_1}")
+  endif()
+  set(page "${PROJECT_BINARY_DIR}/man/${program}.1")
+  add_custom_command(
+    OUTPUT "${page}.gz"
+    COMMAND "${PROJECT_SOURCE_DIR}/config/cmake/man_page.sh" "$<TARGET_FILE:${program}>" > "${page}"
+    COMMAND "${Gzip}" --force --no-name --best "${page}"
+    DEPENDS ${program} config/cmake/man_page.sh
+    VERBATIM)
+  list(APPEND pages "${page}.gz")
+  install(FILES "${page}.gz" DESTINATION share/man/man1 COMPONENT ${component} OPTIONAL)
+  install(FILES config/completion/trailcast.bash DESTINATION share/bash-completion/completions
+          RENAME ${program} COMPONENT ${component})
+endforeach()
+file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/man")
+add_custom_target(manpages DEPENDS ${pages})
+
 # The rooms that are offered: to teach and follow, to store, share and look for routes.
 set(rooms services/base services/motion services/image services/route services/view
           services/vision services/teach services/replay services/refresh services/belief services/mission services/network

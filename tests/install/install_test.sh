@@ -8,7 +8,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 cmake --install "$build" --prefix "$work/installed" >"$work/install.log"
-for file in bin/trailcast{,-agent,-console,-server} lib/systemd/system/trailcast-{agent,console,server}.service; do
+for file in bin/trailcast{,-agent,-console,-server} lib/systemd/system/trailcast-{agent,console,server}.service \
+  share/bash-completion/completions/trailcast{,-agent,-console,-server}; do
   [[ -e $work/installed/$file ]] || { echo "not installed: $file" >&2; exit 1; }
 done
 if find "$work/installed/include" -path '*/src/*' | grep .; then

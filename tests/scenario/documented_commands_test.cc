@@ -1,0 +1,186 @@
+// The commands that documents show are understood by the programs: each command and each flag is
+// one that the program itself explains.
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "tests/scenario/programs.h"
+#include "tests/support/documents.h"
+
+namespace trailcast::test {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+struct Shown {
+  std::string where;
+  std::vector<std::string> words;  // the program's name first
+};
+
+bool IsProgram(const std::string& word) {
+  static const std::set<std::string> kPrograms{"trailcast", "trailcast-agent", "trailcast-console",
+                                               "trailcast-server"};
+  return kPrograms.contains(word);
+}
+
+// The commands of one line of shell: where a program's name is at the beginning, or after one of
+// these. A comment, a pipe and a redirection end them.
+std::vector<std::vector<std::string>> CommandsIn(const std::string& line) {
+  static const std::set<std::string> kBefore{"$", "sudo", "-E", "&&", "||", "|", ";", "do"};
+  static const std::set<std::string> kEnds{"&&", "||", "|", "&", ";", ">", ">>", "2>&1", "do"};
+  std::vector<std::vector<std::string>> commands;
+  std::istringstream in(line);
+  std::string word;
+  bool begins = true;
+  bool command = false;
+  while (in >> word && !word.starts_with('#')) {
+    if (begins && IsProgram(word)) {
+      commands.push_back({word});
+      command = true;
+    } else if (kEnds.contains(word)) {
+      command = false;
+    } else if (command) {
+      commands.back().push_back(word.ends_with(';') ? word.substr(0, word.size() - 1) : word);
+      command = !word.ends_with(';');
+    }
+    const bool variable = word.find('=') != std::string::npos && !word.starts_with('-');
+    begins = kBefore.contains(word) || word.ends_with(';') || (begins && variable);
+  }
+  return commands;
+}
+
+std::vector<Shown> CommandsOf(const Document& document) {
+  std::vector<Shown> shown;
+  std::string text;
+  for (const DocumentLine& line : document.lines) {
+    if (line.kind != LineKind::kCode) {
+      text.clear();
+      continue;
+    }
+    text += line.text;
+    if (text.ends_with('\\')) {
+      text.pop_back();
+      continue;
+    }
+    for (auto& words : CommandsIn(text)) shown.push_back({document.Where(line.number), words});
+    text.clear();
+  }
+  return shown;
+}
+
+class DocumentedCommands : public ProgramsTest {
+ protected:
+  // What a program explains of itself, or of a command of its own; empty: there is no such command.
+  const std::string& Help(const std::vector<std::string>& command) {
+    std::string key;
+    for (const std::string& word : command) key += word + " ";
+    const auto [help, is_new] = help_.try_emplace(key);
+    if (is_new) {
+      std::vector<std::string> argv{ProgramsDir() + "/" + command.front()};
+      argv.insert(argv.end(), command.begin() + 1, command.end());
+      argv.emplace_back("--help-all");
+      Process process(argv, Path("help.log"));
+      const Ended ended = End(process);
+      if (ended.status == 0) help->second = ended.output;
+    }
+    return help->second;
+  }
+
+  // The name of a subcommand stands in a line of its own, two blanks in, after "Subcommands:".
+  static bool Has(const std::string& help, const std::string& subcommand) {
+    const std::size_t list = help.find("Subcommands:");
+    return list != std::string::npos &&
+           help.find("\n  " + subcommand + " ", list) != std::string::npos;
+  }
+  static bool HasFlag(const std::string& help, const std::string& flag) {
+    for (std::size_t at = help.find(flag); at != std::string::npos; at = help.find(flag, at + 1)) {
+      const char next = at + flag.size() < help.size() ? help[at + flag.size()] : ' ';
+      if (std::string_view(" \n,=").find(next) != std::string_view::npos) return true;
+    }
+    return false;
+  }
+
+  // What is wrong with it; empty if nothing is.
+  std::string Wrong(const std::vector<std::string>& words) {
+    std::vector<std::string> command{words.front()};
+    std::string help = Help(command);
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      std::string word = words[i].substr(0, words[i].find('='));
+      if (word.starts_with("--") && !HasFlag(help, word)) return "there is no " + word;
+      if (Has(help, word)) {
+        command.push_back(word);
+        help += Help(command);
+      } else if (i == 1 && !word.starts_with('-') &&
+                 help.find("Subcommands:") != std::string::npos) {
+        return "there is no command " + word;
+      }
+    }
+    return "";
+  }
+
+ private:
+  std::map<std::string, std::string> help_;
+};
+
+TEST_F(DocumentedCommands, AreUnderstoodByThePrograms) {
+  int commands = 0;
+  std::vector<std::string> wrong;
+  for (const Document& document : ReadDocuments()) {
+    for (const Shown& shown : CommandsOf(document)) {
+      ++commands;
+      const std::string what = Wrong(shown.words);
+      if (!what.empty()) wrong.push_back(shown.where + ": " + what);
+    }
+  }
+  EXPECT_THAT(wrong, IsEmpty());
+  EXPECT_GT(commands, 200);
+}
+
+TEST_F(DocumentedCommands, WhatIsNotThereIsFound) {
+  EXPECT_EQ(Wrong({"trailcast", "routes", "--long"}), "");
+  EXPECT_EQ(Wrong({"trailcast", "routes", "--longer"}), "there is no --longer");
+  EXPECT_EQ(Wrong({"trailcast", "drive", "robot1"}), "there is no command drive");
+  EXPECT_EQ(Wrong({"trailcast", "keys", "add", "--role", "scout", "robot1"}), "");
+  EXPECT_EQ(Wrong({"trailcast", "keys", "list", "--role", "scout"}), "there is no --role");
+}
+
+TEST_F(DocumentedCommands, ManPagesHaveEveryCommandAndItsFlags) {
+  Process script({SourceDir() + "/config/cmake/man_page.sh", ProgramsDir() + "/trailcast"},
+                 Path("page.1"));
+  const Ended page = End(script);
+  ASSERT_EQ(page.status, 0) << page.output;
+  EXPECT_THAT(page.output,
+              AllOf(HasSubstr(".TH TRAILCAST 1 "), HasSubstr(".SH \"trailcast routes\""),
+                    HasSubstr(".SH \"trailcast keys add\""), HasSubstr(".B \\-\\-near\\-site X,Y"),
+                    HasSubstr(".SS \"Examples\"")));
+}
+
+TEST_F(DocumentedCommands, BashCompletesCommandsFlagsAndValues) {
+  const auto completed = [&](const std::string& words) {
+    const std::string script = "source " + SourceDir() + "/config/completion/trailcast.bash; " +
+                               "PATH=" + ProgramsDir() + ":$PATH; COMP_WORDS=(" + words +
+                               "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _trailcast; " +
+                               "echo ${COMPREPLY[*]}";
+    Process bash({"/bin/bash", "-c", script}, Path("completed"));
+    return End(bash).output;
+  };
+  EXPECT_EQ(completed("trailcast rou"), "routes\n");
+  EXPECT_EQ(completed("trailcast routes --near"), "--near-site --near-gps\n");
+  EXPECT_EQ(completed("trailcast-agent replay --start ''"), "left beginning anywhere\n");
+  EXPECT_THAT(completed("trailcast --domain 7 keys ''"), HasSubstr("revoke"));
+}
+
+TEST_F(DocumentedCommands, AreFoundInALineOfShell) {
+  EXPECT_THAT(
+      CommandsIn("A=b trailcast routes --json | jq . && trailcast fleet  # trailcast where"),
+      ElementsAre(ElementsAre("trailcast", "routes", "--json"), ElementsAre("trailcast", "fleet")));
+  EXPECT_THAT(CommandsIn("docker exec console trailcast users"), IsEmpty());
+  EXPECT_THAT(CommandsIn("for i in 1 2; do trailcast keys add x-$i; done"), SizeIs(1));
+}
+
+}  // namespace
+}  // namespace trailcast::test
