@@ -55,8 +55,9 @@ page_of() {
 }
 
 version=$("$program" --version)
-about=$("$program" --help | sed 's/-/\\-/g; s/\.$//; q')
+about=$("$program" --help)
+about=${about%%$'\n'*} about=${about%.}
 printf '.TH %s 1 "" "Trailcast %s"\n.SH NAME\n%s \\- %s\n' "${name^^}" "${version##* }" \
-  "${name//-/\\-}" "$about"
+  "${name//-/\\-}" "${about//-/\\-}"
 printf '.SH SYNOPSIS\n.B %s\n[OPTIONS] [COMMAND]\n.SH DESCRIPTION\n' "${name//-/\\-}"
 page_of "$program"
