@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "services/base/result.h"
 #include "services/image/image.h"
 #include "services/plot/drawing.h"
 
@@ -45,6 +47,17 @@ struct Plan {
 // A picture with axes in metres, both to the same scale, and a legend: as the paper's Fig. 4. Shows
 // the backdrop's area, or that around the paths.
 [[nodiscard]] Drawing DrawPlan(const Plan& plan);
+
+// How discs drive over a plan: each path takes so long, and the next one begins so much later.
+struct PlanMotion {
+  double takes_s = 10.0;
+  double apart_s = 1.0;
+};
+
+// The plan as SVG in which a disc drives along each path but bands, at an even pace, over and over.
+// Errors: as Drawing::Write's; kInvalidArgument if the file's name does not end in ".svg".
+[[nodiscard]] Result<void> WriteMovingPlan(const Plan& plan, const PlanMotion& motion,
+                                           const std::filesystem::path& file);
 
 // Colours told apart by most eyes (Okabe and Ito), in a fixed order; the taught path's comes first.
 [[nodiscard]] image::Color PathColor(std::size_t index);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "services/base/text_file.h"
 #include "services/plot/plot_style.h"
 
 namespace trailcast::plot {
@@ -76,17 +77,22 @@ double WidthOf(const PlottedPath& path) {
   return path.taught ? 4.0 : 2.0;
 }
 
-void DrawPath(Drawing& drawing, const Frame& frame, const PlottedPath& path) {
-  if (path.points_m.empty()) return;
+// Below a pixel's distance there is nothing to see, and dashes would melt together.
+std::vector<PixelPoint> PixelsOf(const Frame& frame, const PlottedPath& path) {
   std::vector<PixelPoint> points;
   points.reserve(path.points_m.size());
   for (const Eigen::Vector2d& point_m : path.points_m) {
     const PixelPoint point = frame.At(point_m);
-    // Below a pixel's distance there is nothing to see, and dashes would melt together.
     if (points.empty() || std::hypot(point.x - points.back().x, point.y - points.back().y) >= 1.0) {
       points.push_back(point);
     }
   }
+  return points;
+}
+
+void DrawPath(Drawing& drawing, const Frame& frame, const PlottedPath& path) {
+  if (path.points_m.empty()) return;
+  const std::vector<PixelPoint> points = PixelsOf(frame, path);
   if (points.size() > 1) drawing.Line(points, path.color, WidthOf(path), path.taught);
   if (path.band) return;
   if (path.taught) drawing.Disc(points.front(), 5.0, path.color);
@@ -109,6 +115,30 @@ void DrawLegend(Drawing& drawing, const Frame& frame, const std::vector<PlottedP
     drawing.Text(path.label, {kLeft_px + kLegendSample_px + 10.0, y}, kTextHeight_px, kInk);
     y += kLegendLine_px;
   }
+}
+
+Frame FrameOf(const Plan& plan) {
+  Frame frame;
+  frame.area = plan.backdrop ? plan.backdrop->area : AreaAround(plan.paths, 1.0);
+  const Eigen::Vector2d size_m = frame.area.size_m();
+  frame.px_per_m = kLongSide_px / std::max(size_m.x(), size_m.y());
+  return frame;
+}
+
+// A disc that stands until `from`, is at the path's end at `to`, and stands there until all begins
+// anew; both are shares of `period_s`. Points are in pixels' middles, SVG counts from their
+// corners.
+std::string MovingDisc(const Frame& frame, const PlottedPath& path, double from, double to,
+                       double period_s) {
+  std::string way;
+  for (const PixelPoint& point : PixelsOf(frame, path)) {
+    way += fmt::format("{}{:.1f} {:.1f}", way.empty() ? "M" : "L", point.x + 0.5, point.y + 0.5);
+  }
+  return fmt::format(
+      "<circle r=\"8\" fill=\"#{:02x}{:02x}{:02x}\" stroke=\"#fff\" stroke-width=\"2\">"
+      "<animateMotion dur=\"{:.2f}s\" repeatCount=\"indefinite\" calcMode=\"linear\" "
+      "keyTimes=\"0;{:.4f};{:.4f};1\" keyPoints=\"0;0;1;1\" path=\"{}\"/></circle>\n",
+      path.color[0], path.color[1], path.color[2], period_s, from, to, way);
 }
 
 double WidestText(const Plan& plan) {
@@ -138,10 +168,7 @@ PlanArea AreaAround(const std::vector<PlottedPath>& paths, double margin_m) {
 }
 
 Drawing DrawPlan(const Plan& plan) {
-  Frame frame;
-  frame.area = plan.backdrop ? plan.backdrop->area : AreaAround(plan.paths, 1.0);
-  const Eigen::Vector2d size_m = frame.area.size_m();
-  frame.px_per_m = kLongSide_px / std::max(size_m.x(), size_m.y());
+  const Frame frame = FrameOf(plan);
   const auto entries =
       static_cast<double>(std::count_if(plan.paths.begin(), plan.paths.end(), HasLabel));
   const double width = kLeft_px + std::max(frame.width_px(), WidestText(plan)) + kRight_px;
@@ -164,6 +191,33 @@ Drawing DrawPlan(const Plan& plan) {
   }
   DrawLegend(drawing, frame, plan.paths);
   return drawing;
+}
+
+Result<void> WriteMovingPlan(const Plan& plan, const PlanMotion& motion,
+                             const std::filesystem::path& file) {
+  constexpr double kPause_s = 2.0;
+  constexpr const char* kEnd = "</svg>";
+  if (file.extension() != ".svg") {
+    return Fail(ErrorCode::kInvalidArgument, "{}: a picture that moves is an .svg", file.string());
+  }
+  if (auto drawn = DrawPlan(plan).Write(file); !drawn) return drawn;
+  auto text = ReadTextFile(file);
+  if (!text) return tl::unexpected(text.error());
+  const auto moves = [](const PlottedPath& path) { return !path.band && path.points_m.size() > 1; };
+  const auto count =
+      static_cast<double>(std::count_if(plan.paths.begin(), plan.paths.end(), moves));
+  const double period_s = motion.takes_s + motion.apart_s * std::max(count - 1.0, 0.0) + kPause_s;
+  const Frame frame = FrameOf(plan);
+  std::string discs;
+  double begins_s = 0.0;
+  for (const PlottedPath& path : plan.paths) {
+    if (!moves(path)) continue;
+    discs += MovingDisc(frame, path, begins_s / period_s, (begins_s + motion.takes_s) / period_s,
+                        period_s);
+    begins_s += motion.apart_s;
+  }
+  text->insert(text->rfind(kEnd), discs);
+  return WriteTextFile(file, *text);
 }
 
 image::Color PathColor(std::size_t index) {

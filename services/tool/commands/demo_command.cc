@@ -35,6 +35,7 @@ struct DemoOptions {
   std::uint64_t seed = 1;
   std::filesystem::path out = ".";
   bool keep = false;
+  bool moving = false;
   double timeout_s = 600.0;
   bool console = false;
   bool network = false;
@@ -42,6 +43,7 @@ struct DemoOptions {
 };
 
 constexpr const char* kPicture = "trailcast-demo.png";
+constexpr const char* kMovingPicture = "trailcast-demo.svg";
 constexpr int kExitInterrupted = 130;
 constexpr std::size_t kLogLines = 8;
 
@@ -49,6 +51,7 @@ constexpr const char* kDemoExamples =
     "Examples:\n"
     "  trailcast demo\n"
     "  trailcast demo --seed 7 --out /tmp\n"
+    "  trailcast demo --moving          # and a picture in which they drive, trailcast-demo.svg\n"
     "  trailcast demo --keep            # leaves logs, stores and true poses to look at\n"
     "  trailcast demo --console         # robots on duty: sent, seen and stopped in a browser\n"
     "  trailcast demo --network         # three scouts' routes are joined, five robots sent over "
@@ -75,15 +78,23 @@ Result<std::filesystem::path> ProgramFolder() {
   return self.parent_path();
 }
 
+// A picture of the paths, and one that moves where that is asked for.
 Result<void> DrawPicture(const std::string& title, std::vector<plot::PlottedPath> paths,
-                         const std::filesystem::path& file) {
+                         const DemoOptions& options) {
   const auto world = sim::MakeIndoorWorld();
   if (!world) return tl::unexpected(world.error());
   plot::Plan plan;
   plan.title = title;
   plan.paths = std::move(paths);
   plan.backdrop = trial::WorldBackdrop(*world->world, plan.paths);
-  return plot::DrawPlan(plan).Write(file);
+  const std::filesystem::path picture = options.out / kPicture;
+  if (auto drawn = plot::DrawPlan(plan).Write(picture); !drawn) return drawn;
+  fmt::print("The paths, seen from above: {}\n", picture.string());
+  if (!options.moving) return {};
+  const std::filesystem::path moving = options.out / kMovingPicture;
+  if (auto drawn = plot::WriteMovingPlan(plan, {}, moving); !drawn) return drawn;
+  fmt::print("The same as a picture that moves: {}\n", moving.string());
+  return {};
 }
 
 // Table and picture, from what the processes left in their files.
@@ -101,11 +112,9 @@ Result<int> Report(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& r
     fmt::print("last words of {}:\n", robots[i].name);
     for (const std::string& line : fleet.RobotLog(i, kLogLines)) fmt::print("    {}\n", line);
   }
-  const std::filesystem::path picture = options.out / kPicture;
   const auto drawn = DrawPicture("trailcast demo: one scout teaches, three other cameras follow",
-                                 demo::DemoPaths(rows), picture);
+                                 demo::DemoPaths(rows), options);
   if (!drawn) return tl::unexpected(drawn.error());
-  fmt::print("The paths, seen from above: {}\n", picture.string());
   return all ? program::kExitOk : program::kExitNotArrived;
 }
 
@@ -155,11 +164,9 @@ Result<int> ReportJourneys(demo::DemoFleet& fleet, const demo::NetworkPlan& plan
   const auto report = demo::JudgeJourneys(plan, show.Ends());
   if (!report) return tl::unexpected(report.error());
   std::fputs(("\n" + demo::JourneyTable(*report)).c_str(), stdout);
-  const std::filesystem::path picture = options.out / kPicture;
   const auto drawn = DrawPicture("trailcast demo: three routes joined, five other cameras sent",
-                                 demo::JourneyPaths(plan, *report), picture);
+                                 demo::JourneyPaths(plan, *report), options);
   if (!drawn) return tl::unexpected(drawn.error());
-  fmt::print("The paths, seen from above: {}\n", picture.string());
   return report->AllWell() ? program::kExitOk : program::kExitNotArrived;
 }
 
@@ -262,12 +269,15 @@ Command AddDemoCommand(CLI::App& parent, const program::CommonOptions& common) {
   app->add_option("--seed", options->seed, "Draws the robots");
   app->add_option("--out", options->out, "Folder for the picture, trailcast-demo.png");
   app->add_flag("--keep", options->keep, "Keep the temporary folder: logs, stores, true poses");
+  auto* moving = app->add_flag("--moving", options->moving,
+                               "Also a picture in which robots drive, trailcast-demo.svg");
   auto* timeout = app->add_option("--timeout", options->timeout_s, "Seconds after which to give up")
                       ->check(CLI::Range(1.0, 86400.0));
   auto* console = app->add_flag("--console", options->console,
                                 "Robots on duty, and a console to send and stop them in a browser, "
                                 "until Ctrl-C")
-                      ->excludes(timeout);
+                      ->excludes(timeout)
+                      ->excludes(moving);
   app->add_flag(
          "--network", options->network,
          "Three scouts teach, their routes are joined, and five robots with other cameras are "

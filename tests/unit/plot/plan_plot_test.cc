@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <string>
+
+#include "services/base/text_file.h"
 #include "tests/support/count_near.h"
+#include "tests/support/temp_dir.h"
 
 namespace trailcast::plot {
 namespace {
@@ -39,6 +44,30 @@ TEST(DrawPlan, ShowsEachPathInItsColour) {
   Plan without = plan;
   without.paths[1].points_m.clear();
   EXPECT_LT(CountNear(DrawPlan(without).Render(), plan.paths[1].color), 200);
+}
+
+TEST(WriteMovingPlan, ADiscDrivesAlongEachPathOneAfterTheOther) {
+  const test::TempDir folder;
+  Plan plan = TwoPaths();
+  plan.paths.push_back({"", PathColor(2), {{0.0, 0.5}, {8.0, 0.5}}, false, false, true});
+  ASSERT_TRUE(WriteMovingPlan(plan, {6.0, 2.0}, folder / "plan.svg"));
+  const auto text = ReadTextFile(folder / "plan.svg");
+  ASSERT_TRUE(text);
+  std::size_t discs = 0;
+  for (std::size_t at = text->find("<animateMotion"); at != std::string::npos;
+       at = text->find("<animateMotion", at + 1)) {
+    ++discs;
+  }
+  EXPECT_EQ(discs, 2U);  // a band is no path that somebody drove
+  EXPECT_NE(text->find("keyTimes=\"0;0.0000;0.6000;1\""), std::string::npos) << *text;
+  EXPECT_NE(text->find("keyTimes=\"0;0.2000;0.8000;1\""), std::string::npos);
+  EXPECT_TRUE(text->substr(text->rfind('<')).starts_with("</svg>"));
+}
+
+TEST(WriteMovingPlan, IsAnSvg) {
+  const test::TempDir folder;
+  EXPECT_FALSE(WriteMovingPlan(TwoPaths(), {}, folder / "plan.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "plan.png"));
 }
 
 TEST(DrawPlan, ABandLiesBelowThePaths) {
