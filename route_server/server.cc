@@ -52,6 +52,7 @@ Server::Server(const AgentId& name, std::unique_ptr<store::RouteStore> store,
     : store_(std::move(store)),
       views_(*store_),
       exchange_(std::move(exchange)),
+      mirror_(name, *store_),
       presence_(*exchange_, ServerStatus(name), kStatusEvery),
       fleet_(name),
       followers_(name),
@@ -176,6 +177,7 @@ void Server::Receive(exchange::Message message) {
     // Another server may have changed it in the store that both share.
     if (network_ && store_->shared()) NoteOfNetwork(announced->info);
   }
+  mirror_.Handle(message, steady_clock::now());
   if (!quotas_) {
     keeper_->Handle(std::move(message), steady_clock::now());
   } else if (auto allowed = WithinQuotas(message)) {
@@ -248,6 +250,11 @@ milliseconds Server::WaitForMessages() const {
 
 std::vector<exchange::Message> Server::Say(steady_clock::time_point now) {
   auto outgoing = keeper_->Tick(now);
+  for (const exchange::Message& message : outgoing) {
+    const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message);
+    if (announced != nullptr) mirror_.NoteStored(announced->info.key);
+  }
+  for (exchange::Message& told : mirror_.Tick(now)) outgoing.push_back(std::move(told));
   for (exchange::Message& reply : std::exchange(replies_, {})) {
     outgoing.push_back(std::move(reply));
   }
@@ -266,6 +273,9 @@ std::vector<exchange::Message> Server::Say(steady_clock::time_point now) {
 void Server::TellTroubles() {
   for (const exchange::Note& note : keeper_->TakeNotes()) {
     spdlog::log(LevelOf(note.severity), "{}", note.text);
+  }
+  for (const std::string& line : mirror_watch_.Look(mirror_, steady_clock::now())) {
+    spdlog::info("{}", line);
   }
   if (exchange_->dropped() > told_dropped_) {
     told_dropped_ = exchange_->dropped();
@@ -354,6 +364,8 @@ std::string Server::Degraded() const {
   };
   add("nothing that scouts send is stored", keeper_->untaken());
   if (missions_) add("no news of missions are stored", missions_->untaken());
+  // Whoever shares the store holds the same by that.
+  if (!store_->shared()) add("not mirrored", MirrorWatch::Behind(mirror_, steady_clock::now()));
   return degraded;
 }
 
@@ -378,6 +390,10 @@ void Server::ShowMetricsIfDue(steady_clock::time_point now) {
   metrics_.lacking_segments = upkeep_->lacking_segments();
   metrics_.dropped_strays = upkeep_->dropped_strays();
   metrics_.on_network = network_state_->trouble.empty();
+  metrics_.mirror = {mirror_.others().size(), 0, mirror_.under_way(), mirror_.asked()};
+  for (const auto& [server, other] : mirror_.others()) {
+    metrics_.mirror.same += other.there && !other.differs_since ? 1U : 0U;
+  }
   metrics_.network_joins = network_state_->joins;
   if (network_) metrics_.joints.open = network_->open_proposals();
   page_->Show({metrics_.Text(), Trouble(), Degraded()});

@@ -17,6 +17,7 @@
 #include "route_server/network/replanning.h"
 #include "route_server/routes/history.h"
 #include "route_server/routes/holders.h"
+#include "route_server/routes/mirror_watch.h"
 #include "route_server/routes/outdated.h"
 #include "route_server/routes/quotas.h"
 #include "route_server/routes/refresh_watch.h"
@@ -26,6 +27,7 @@
 #include "route_server/status/journal.h"
 #include "route_server/status/metrics.h"
 #include "services/catalog/view_catalog.h"
+#include "services/exchange/mirror.h"
 #include "services/exchange/network_state.h"
 #include "services/exchange/route_keeper.h"
 #include "services/program/presence.h"
@@ -127,6 +129,8 @@ class Server {
   std::shared_ptr<const exchange::NetworkState> network_state_ =
       std::make_shared<exchange::NetworkState>();
   std::unique_ptr<exchange::RouteKeeper> keeper_;
+  exchange::Mirror mirror_;
+  MirrorWatch mirror_watch_;
   std::optional<Upkeep> upkeep_;  // once there is a keeper
   program::Presence presence_;
   Journal journal_;

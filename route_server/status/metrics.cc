@@ -44,6 +44,13 @@ std::string Metrics::Text() const {
             on_network ? 1 : 0);
   lines.Add("network_joins_total", kCounter,
             "How often it has joined, more than once where the network changed.", network_joins);
+  lines.Add("mirror_servers", kGauge, "Other servers, also those that went without a word.",
+            mirror.servers);
+  lines.Add("mirror_servers_in_step", kGauge, "Of these, those that hold the same routes.",
+            mirror.same);
+  lines.Add("mirror_routes_under_way", kGauge, "Routes that are asked of them at present.",
+            mirror.under_way);
+  lines.Add("mirror_routes_asked_total", kCounter, "Routes that were.", mirror.asked);
   lines.Add("routes_partial", kGauge, "Complete routes of which segments are lacking or damaged.",
             partial_routes);
   lines.Add("segments_lacking", kGauge, "Segments of these that are asked for.", lacking_segments);

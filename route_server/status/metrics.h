@@ -53,6 +53,12 @@ struct Metrics {
   bool store_reachable = true;
   bool on_network = true;
   std::uint64_t network_joins = 0;
+  struct {
+    std::size_t servers = 0;    // others that were met, and have not said good-bye
+    std::size_t same = 0;       // of these, those that are there and hold the same routes
+    std::size_t under_way = 0;  // routes that are asked of them
+    std::uint64_t asked = 0;    // since the start
+  } mirror{};
   std::size_t partial_routes = 0;                   // complete ones that lack segments here
   std::size_t lacking_segments = 0;                 // of these
   std::uint64_t dropped_strays = 0;                 // segments that nobody announced

@@ -32,9 +32,10 @@ inline constexpr double kMaxOdometryScale = 1000.0;
 inline constexpr std::size_t kMaxGlanceBytes = 64U << 10U;
 inline constexpr std::size_t kMaxHeardAgents = 256;  // told at once
 inline constexpr std::size_t kMaxAddressBytes = 64;
-inline constexpr std::size_t kMaxNetworkBytes = 16;  // a network interface's name
-inline constexpr double kMaxLate_ms = 1e15;          // clocks may be anywhere
-inline constexpr std::size_t kMaxLineBytes = 512;    // details, errors, reasons
+inline constexpr std::size_t kMaxNetworkBytes = 16;   // a network interface's name
+inline constexpr double kMaxLate_ms = 1e15;           // clocks may be anywhere
+inline constexpr std::size_t kMaxEntriesTold = 4096;  // revisions in a summary of a store
+inline constexpr std::size_t kMaxLineBytes = 512;     // details, errors, reasons
 
 // kInvalidArgument naming the field, what it holds and what is accepted. The digest of a piece is
 // not checked against its bytes here (route::CheckDigest), only that there is one.

@@ -95,6 +95,9 @@ class KeptRoute {
   [[nodiscard]] bool idle() const {
     return want.empty() && !receipt_due && !announce_due && !resend_due;
   }
+  // Another server has given it the number that it has, or was announced with; has all of it.
+  bool numbered_elsewhere = false;
+  bool completed_elsewhere = false;
   Time spoken_of_at{};
   Time refreshed_at{};  // when the store was last looked at
   std::optional<Time> receipt_at;

@@ -389,6 +389,22 @@ struct ReachReport {
   bool operator==(const ReachReport&) const = default;
 };
 
+// trailcast/stores: what a server holds of the routes whose ids begin with `prefix`, in short
+// (mirror.h), for other servers. Either `parts`, one for each two digits that may follow the
+// prefix, or `entries`: each of its revisions, the deleted ones too.
+struct StoreSummary {
+  struct Entry {
+    route::RouteKey key{};
+    std::uint64_t digest = 0;
+    bool operator==(const Entry&) const = default;
+  };
+  AgentId server{};
+  std::string prefix{};  // an even number of hexadecimal digits
+  std::vector<std::uint64_t> parts{};
+  std::vector<Entry> entries{};
+  bool operator==(const StoreSummary&) const = default;
+};
+
 // Not a topic: a peer's agent is gone (its liveliness ended or it said good-bye).
 struct AgentGone {
   AgentId agent{};
@@ -401,7 +417,7 @@ using AnyMessage =
                  CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, NowCommand,
                  NowAnswer, mission::Mission, mission::Report, MissionRequest, MissionReply,
                  DriveCommand, GlanceRequest, Glance, NetworkEdit, NetworkRequest, NetworkReply,
-                 FollowedStretches, ReachRequest, ReachReport, AgentGone>;
+                 FollowedStretches, ReachRequest, ReachReport, StoreSummary, AgentGone>;
 
 // One of these. Its copies are made in one source file: where each file that hands messages on made
 // its own of two dozen types, compilers were busy with nothing else.

@@ -37,6 +37,7 @@ enum class Topic : std::uint8_t {
   kFollowed,
   kReachRequests,
   kReachReports,
+  kStores,
 };
 
 struct TopicUse {

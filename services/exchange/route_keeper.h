@@ -15,6 +15,7 @@
 #include "services/exchange/kept_route.h"
 #include "services/exchange/messages.h"
 #include "services/exchange/missing_routes.h"
+#include "services/exchange/servers_there.h"
 #include "services/exchange/stand_in.h"
 #include "services/store/route_store.h"
 
@@ -177,9 +178,13 @@ class RouteKeeper {
   [[nodiscard]] std::optional<route::RouteInfo> News(KeptRoute& kept, Time now, bool grown_too);
   // The revision of this one's route that is active; 0: none.
   [[nodiscard]] RevisionNumber Followed(const route::RouteInfo& info);
-  // A route's first complete revision is the active one, unless it is held back.
+  // A route's first complete revision is the active one, unless it is held back, or another server
+  // had it before.
   [[nodiscard]] Result<void> ActivateFirst(std::vector<route::RouteInfo>& completing);
-  [[nodiscard]] Result<void> Put(std::span<const route::RouteInfo> infos, bool completing);
+  [[nodiscard]] Result<void> Put(std::span<const route::RouteInfo> infos, bool completing,
+                                 Time now);
+  [[nodiscard]] Result<void> PutTogether(std::vector<route::RouteInfo> infos, bool completing,
+                                         std::vector<route::RouteInfo>& reconciled);
   void StoreInfos(std::span<const route::RouteInfo> infos, bool completing, Time now,
                   std::vector<route::RouteKey>& stored);
   void MarkStored(const route::RouteInfo& info, Time now, std::vector<route::RouteKey>& stored);
@@ -201,6 +206,7 @@ class RouteKeeper {
   std::vector<std::pair<route::RouteKey, SegmentIndex>> damaged_;  // that nobody was told of yet
   AnswerQueue answers_;
   StandIn stand_in_;
+  ServersThere servers_;  // others
   MissingRoutes missing_;
   // Apart, since there may be room for the one when there is none for the other.
   std::string segments_untaken_;

@@ -25,8 +25,9 @@ namespace trailcast::route {
 // it is to be reviewed, and edition.
 void TakeLabels(RouteInfo& info, const RouteInfo& from);
 
-// Whether those of `info` count: the later edition; of one edition, in which servers may each have
-// numbered and activated it, the greater number and standing, so that all who hear of both agree.
+// Whether those of `info` count: that it is deleted, or else the later edition; of one edition, to
+// which servers that did not hear of each other may each have come, the greater number, standing
+// and so on, so that all who hear of both agree.
 [[nodiscard]] bool HasLaterLabels(const RouteInfo& info, const RouteInfo& than);
 
 // Whether two infos are of the same teaching: equal but for their labels.

@@ -108,6 +108,9 @@ class RouteStore {
       const RouteId& route) = 0;
   // All that were ever stored of it, the deleted ones too.
   [[nodiscard]] virtual Result<std::vector<KnownTeaching>> FindTeachings(const RouteId& route) = 0;
+  // Those whose route's id begins so, by key; tombstones included, those that are damaged not.
+  [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> FindRoutesWithin(
+      const std::string& id_prefix) = 0;
   // Newest first (taught_unix_ms, then key).
   [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> ListRoutes() = 0;
   [[nodiscard]] virtual Result<std::vector<route::RouteInfo>> FindRoutesByName(

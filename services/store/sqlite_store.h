@@ -34,6 +34,7 @@ class SqliteRouteStore final : public RouteStore {
   Result<std::optional<route::RouteInfo>> FindRoute(const route::RouteKey& key) override;
   Result<std::vector<route::RouteInfo>> FindRevisions(const RouteId& route) override;
   Result<std::vector<KnownTeaching>> FindTeachings(const RouteId& route) override;
+  Result<std::vector<route::RouteInfo>> FindRoutesWithin(const std::string& id_prefix) override;
   Result<std::vector<route::RouteInfo>> ListRoutes() override;
   Result<std::vector<route::RouteInfo>> FindRoutesByName(const std::string& name) override;
   Result<route::RoutePage> QueryRoutes(const route::RouteQuery& query) override;

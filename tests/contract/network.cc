@@ -92,6 +92,8 @@ Message ProbeFor(Topic topic) {
       return exchange::ReachRequest{.client = kProbe};
     case Topic::kReachReports:
       return exchange::ReachReport{.agent = kProbe, .client = kProbe};
+    case Topic::kStores:
+      return exchange::StoreSummary{.server = kProbe};
     case Topic::kAgents:
       break;
   }
@@ -129,6 +131,7 @@ bool IsProbe(const Message& message) {
     AgentId operator()(const exchange::FollowedStretches& m) { return m.agent; }
     AgentId operator()(const exchange::ReachRequest& m) { return m.client; }
     AgentId operator()(const exchange::ReachReport& m) { return m.agent; }
+    AgentId operator()(const exchange::StoreSummary& m) { return m.server; }
     AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
   };
   return std::visit(Sender(), message) == kProbe;

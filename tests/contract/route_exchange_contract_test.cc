@@ -242,6 +242,16 @@ TEST_P(RouteExchangeContract, CarriesWhoHearsWhom) {
   ExpectRoundTrip(report, Topic::kReachReports);
 }
 
+TEST_P(RouteExchangeContract, SummariesOfStoresArriveAsTheyWere) {
+  exchange::StoreSummary summary{.server = AgentId("site-a"), .prefix = "a3"};
+  summary.parts.assign(256, ~0ULL);
+  summary.parts[7] = 0;
+  ExpectRoundTrip(summary, Topic::kStores);
+  summary.parts.clear();
+  summary.entries = {{KeyNumber(1, 7), 1}, {KeyNumber(2, (1ULL << 63U) - 1), ~0ULL}};
+  ExpectRoundTrip(summary, Topic::kStores);
+}
+
 TEST_P(RouteExchangeContract, CarriesWhatBecameOfAMission) {
   ExpectRoundTrip(mission::Report{.agent = AgentId("r"),
                                   .mission = std::string(64, 'm'),

@@ -249,6 +249,19 @@ class Samples {
     wire.address = Text();
     wire.network = Text();
   }
+  void Fill(trailcast_wire_StoreSummary& wire) {
+    wire.server = Name();
+    wire.prefix = Text();
+    wire.parts._length = Count();
+    wire.parts._buffer = Many<std::uint64_t>(parts_, wire.parts._length);
+    wire.entries._length = Count();
+    wire.entries._buffer = Many<trailcast_wire_StoreEntry>(entries_, wire.entries._length);
+  }
+  void Fill(trailcast_wire_StoreEntry& wire) {
+    Fill(wire.of);
+    wire.digest = input_.ConsumeIntegral<std::uint64_t>();
+  }
+  void Fill(std::uint64_t& part) { part = input_.ConsumeIntegral<std::uint64_t>(); }
   void Fill(trailcast_wire_NowCommand& wire) {
     wire.client = Name();
     wire.number = input_.ConsumeIntegral<std::uint64_t>();
@@ -438,6 +451,8 @@ class Samples {
   std::deque<std::vector<trailcast_wire_GivenCommand>> commands_;
   std::deque<std::vector<trailcast_wire_NowAnswer>> answers_;
   std::deque<std::vector<trailcast_wire_HeardAgent>> heard_;
+  std::deque<std::vector<std::uint64_t>> parts_;
+  std::deque<std::vector<trailcast_wire_StoreEntry>> entries_;
 };
 
 // A query is judged when it is answered; one with no number in it equals nothing, itself included.
@@ -553,6 +568,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case Topic::kReachReports:
       FillAndTakeIn<trailcast_wire_ReachReport>(topic, input);
+      break;
+    case Topic::kStores:
+      FillAndTakeIn<trailcast_wire_StoreSummary>(topic, input);
       break;
   }
   return 0;

@@ -131,6 +131,14 @@ class MemoryStore : public store::RouteStore {
     return known;
   }
 
+  Result<std::vector<route::RouteInfo>> FindRoutesWithin(const std::string& id_prefix) override {
+    std::vector<route::RouteInfo> found;
+    for (const auto& [key, info] : routes_) {
+      if (key.route.value().starts_with(id_prefix)) found.push_back(info);
+    }
+    return found;
+  }
+
   Result<std::vector<route::RouteInfo>> ListRoutes() override {
     return Living([](const route::RouteInfo&) { return true; });
   }

@@ -73,11 +73,15 @@ RouteInfo* NewestComplete(Revisions& revisions, std::uint32_t end) {
 }
 
 void MakeActive(RouteInfo& chosen, Revisions& revisions) {
+  if (IsActive(chosen) && !chosen.to_review) return;
   for (RouteInfo& info : revisions) {
     if (IsActive(info)) info.standing = Standing::kStaged;
   }
   chosen.standing = Standing::kActive;
   chosen.to_review = false;
+  // Later than all that is known of the others: where servers that did not hear of each other have
+  // each activated one, that counts which was activated last (exchange::Disagreements).
+  for (const RouteInfo& info : revisions) chosen.edition = std::max(chosen.edition, info.edition);
 }
 
 Result<void> Activate(const RouteEdit& edit, Revisions& revisions) {

@@ -51,6 +51,7 @@ constexpr std::array kTable = {
     Row{T::kFollowed,        {false,    16,        kForever}},
     Row{T::kReachRequests,   {false,    16,        kForever, /*best_effort=*/true}},
     Row{T::kReachReports,    {false,    16,        kForever}},
+    Row{T::kStores,          {false,    64,        kForever}},
 };
 // clang-format on
 

@@ -438,6 +438,16 @@ Message From(const trailcast_wire_ReachReport& wire) {
   return report;
 }
 
+Message From(const trailcast_wire_StoreSummary& wire) {
+  StoreSummary summary{.server = AgentId(Text(wire.server)), .prefix = Text(wire.prefix)};
+  const auto parts = Elements(wire.parts);
+  summary.parts.assign(parts.begin(), parts.end());
+  for (const trailcast_wire_StoreEntry& entry : Elements(wire.entries)) {
+    summary.entries.push_back({From(entry.of), entry.digest});
+  }
+  return summary;
+}
+
 Message Copy(Topic topic, const void* sample) {
   switch (topic) {
     case Topic::kRoutes:
@@ -488,6 +498,8 @@ Message Copy(Topic topic, const void* sample) {
       return From(*static_cast<const trailcast_wire_ReachRequest*>(sample));
     case Topic::kReachReports:
       return From(*static_cast<const trailcast_wire_ReachReport*>(sample));
+    case Topic::kStores:
+      return From(*static_cast<const trailcast_wire_StoreSummary*>(sample));
     case Topic::kAgents:
       break;
   }

@@ -528,6 +528,21 @@ Result<void> With(const ReachReport& message, const UseSample& use) {
   return use(&sample);
 }
 
+Result<void> With(const StoreSummary& message, const UseSample& use) {
+  std::vector<trailcast_wire_StoreEntry> entries;
+  entries.reserve(message.entries.size());
+  for (const StoreSummary::Entry& entry : message.entries) {
+    entries.push_back({.of = ToWire(entry.key), .digest = entry.digest});
+  }
+  std::vector<std::uint64_t> parts = message.parts;
+  trailcast_wire_StoreSummary sample{};
+  sample.server = Lend(message.server.value());
+  sample.prefix = Lend(message.prefix);
+  Lend(parts, sample.parts);
+  Lend(entries, sample.entries);
+  return use(&sample);
+}
+
 Result<void> With(const AgentGone& message, const UseSample&) {
   return Fail(ErrorCode::kInvalidArgument, "AgentGone of {} is no sample of any topic",
               message.agent.value());
@@ -560,7 +575,8 @@ const dds_topic_descriptor_t& TypeOf(Topic topic) {
                                                              &trailcast_wire_NetworkReply_desc,
                                                              &trailcast_wire_FollowedStretches_desc,
                                                              &trailcast_wire_ReachRequest_desc,
-                                                             &trailcast_wire_ReachReport_desc};
+                                                             &trailcast_wire_ReachReport_desc,
+                                                             &trailcast_wire_StoreSummary_desc};
   return *kTypes[static_cast<std::size_t>(topic)];
 }
 

@@ -2,10 +2,14 @@
 
 #include <cmath>
 
+#include "services/base/text.h"
+#include "services/exchange/mirror.h"
+
 namespace trailcast::exchange {
 namespace {
 
 constexpr double kMaxTurn_radps = 100.0;
+constexpr std::size_t kIdDigits = 32;
 
 using route::CheckAmount;
 using route::CheckCount;
@@ -374,6 +378,31 @@ Result<void> Check(const ReachReport& message) {
   if (auto ok = CheckCount("agents heard", message.heard.size(), kMaxHeardAgents); !ok) return ok;
   for (const HeardAgent& heard : message.heard) {
     if (auto ok = CheckHeard(heard); !ok) return ok;
+  }
+  return {};
+}
+
+Result<void> Check(const StoreSummary& message) {
+  if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
+  const std::string& prefix = message.prefix;
+  const bool digits = prefix.find_first_not_of("0123456789abcdef") == std::string::npos;
+  if (!digits || prefix.size() % 2 != 0 || prefix.size() > kIdDigits) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "beginning of route ids '{}' is not an even number of hexadecimal digits, {} at "
+                "most",
+                PlainText(prefix, kIdDigits), kIdDigits);
+  }
+  const bool all = message.parts.empty() || message.parts.size() == Mirror::kParts;
+  if (!all || (!message.parts.empty() && !message.entries.empty())) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "{} parts of a store and {} revisions: either {} parts are accepted, or revisions",
+                message.parts.size(), message.entries.size(), Mirror::kParts);
+  }
+  if (auto ok = CheckCount("revisions told", message.entries.size(), kMaxEntriesTold); !ok) {
+    return ok;
+  }
+  for (const StoreSummary::Entry& entry : message.entries) {
+    if (auto ok = CheckKey(entry.key); !ok) return ok;
   }
   return {};
 }

@@ -40,6 +40,7 @@ Result<std::unique_ptr<RouteKeeper>> RouteKeeper::Open(AgentId self, store::Rout
 
 void RouteKeeper::Handle(Message message, Time now) {
   stand_in_.Handle(message, now);
+  servers_.Handle(message);
   if (const auto* announcement = std::get_if<RouteAnnouncement>(&message)) {
     HandleAnnouncement(*announcement, now);
   } else if (auto* batch = std::get_if<SegmentBatch>(&message)) {
@@ -71,6 +72,10 @@ void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time
   const RouteInfo& info = announcement.info;
   KeptRoute* kept = Find(info.key, now);
   if (kept == nullptr) return;
+  if (servers_.Contains(announcement.holder)) {
+    kept->numbered_elsewhere = info.revision.value() != 0;
+    kept->completed_elsewhere = info.state == route::RouteState::kComplete;
+  }
   const auto grace = kept->heard() ? options_.grown_grace : options_.fresh_grace;
   switch (kept->Claim(info, now + grace)) {
     case KeptRoute::ClaimResult::kNews:
@@ -85,6 +90,8 @@ void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time
       return;
     case KeptRoute::ClaimResult::kDeleted:
       kept->receipt_due = true;
+      // Another server reads no receipts.
+      if (info.standing != route::Standing::kDeleted) kept->announce_due = kept->resend_due = true;
       return;
     case KeptRoute::ClaimResult::kOldNews:
       break;

@@ -60,6 +60,7 @@ Result<void> RouteKeeper::ActivateFirst(std::vector<RouteInfo>& completing) {
   for (RouteInfo& info : completing) {
     const bool staged = info.standing == route::Standing::kStaged;
     if (!staged || info.held_back() || activated.contains(info.key.route)) continue;
+    if (routes_.at(info.key).completed_elsewhere) continue;
     const auto revisions = store_.FindRevisions(info.key.route);
     if (!revisions) return tl::unexpected(revisions.error());
     const bool edited = std::any_of(
@@ -91,27 +92,55 @@ std::optional<RouteInfo> RouteKeeper::News(KeptRoute& kept, Time now, bool grown
   return durable;
 }
 
-Result<void> RouteKeeper::Put(std::span<const RouteInfo> infos, bool completing) {
-  const bool some_new = std::any_of(infos.begin(), infos.end(), [&](const RouteInfo& info) {
-    return !routes_.at(info.key).stored();
+Result<void> RouteKeeper::Put(std::span<const RouteInfo> infos, bool completing, Time now) {
+  const bool labels_too = std::any_of(infos.begin(), infos.end(), [&](const RouteInfo& info) {
+    const auto& stored = routes_.at(info.key).stored();
+    return !stored || route::HasLaterLabels(info, *stored);
   });
-  if (!completing && !some_new) return store_.PutRoutes(infos);
+  if (!completing && !labels_too) return store_.PutRoutes(infos);
   // Two servers must not each give the same number, nor activate another revision.
-  return store_.Exclusively([&]() -> Result<void> {
-    std::vector<RouteInfo> labelled(infos.begin(), infos.end());
-    if (auto numbered = GiveNumbers(store_, labelled); !numbered) return numbered;
-    if (completing) {
-      if (auto chosen = ActivateFirst(labelled); !chosen) return chosen;
-    }
-    return store_.PutRoutes(labelled);
+  std::vector<RouteInfo> reconciled;
+  auto put = store_.Exclusively([&] {
+    return PutTogether({infos.begin(), infos.end()}, completing, reconciled);
   });
+  if (!put) return put;
+  for (const RouteInfo& info : reconciled) {
+    AddNote(Note::Severity::kWarning, "reconciled/" + Describe(info.key),
+            fmt::format("{} is {} from now on: another server, out of reach of this one, had made "
+                        "something else of the route",
+                        Describe(info), route::NameOf(info.standing)),
+            now);
+    TellRelabelled(info, now);
+  }
+  return {};
+}
+
+Result<void> RouteKeeper::PutTogether(std::vector<RouteInfo> infos, bool completing,
+                                      std::vector<RouteInfo>& reconciled) {
+  const auto unnumbered = std::partition(infos.begin(), infos.end(), [&](const RouteInfo& info) {
+    return routes_.at(info.key).numbered_elsewhere;
+  });
+  if (auto numbered = GiveNumbers(store_, {unnumbered, infos.end()}); !numbered) return numbered;
+  if (completing) {
+    if (auto chosen = ActivateFirst(infos); !chosen) return chosen;
+  }
+  if (auto put = store_.PutRoutes(infos); !put) return put;
+  std::set<RouteId> routes;
+  for (const RouteInfo& info : infos) routes.insert(info.key.route);
+  reconciled.clear();
+  for (const RouteId& route : routes) {
+    auto changed = Disagreements(store_, route);
+    if (!changed) return tl::unexpected(changed.error());
+    reconciled.insert(reconciled.end(), changed->begin(), changed->end());
+  }
+  return reconciled.empty() ? Result<void>() : store_.PutRoutes(reconciled);
 }
 
 // One commit. When the store refuses the group for a route in it, each is tried alone.
 void RouteKeeper::StoreInfos(std::span<const RouteInfo> infos, bool completing, Time now,
                              std::vector<RouteKey>& stored) {
   if (infos.empty()) return;
-  const auto put = Put(infos, completing);
+  const auto put = Put(infos, completing, now);
   const bool is_away = !put && put.error().code == ErrorCode::kUnavailable;
   routes_untaken_ = is_away ? put.error().message : "";
   if (put) {

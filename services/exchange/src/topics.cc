@@ -40,8 +40,8 @@ TopicUse FollowerTopics() {
 TopicUse ServerTopics() {
   return {.write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts,
                     Topic::kCatalogReplies, Topic::kAgents, Topic::kFleet, Topic::kNow,
-                    Topic::kMissions, Topic::kMissionStates},
-          .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests,
+                    Topic::kMissions, Topic::kMissionStates, Topic::kStores},
+          .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kStores,
                    Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits, Topic::kNow,
                    Topic::kNowAnswers, Topic::kMissions, Topic::kMissionStates,
                    Topic::kMissionRequests, Topic::kNetworkEdits, Topic::kNetworkRequests,
@@ -139,7 +139,8 @@ std::optional<Topic> TopicOf(const Message& message) {
                                        Topic::kNetworkReplies,
                                        Topic::kFollowed,
                                        Topic::kReachRequests,
-                                       Topic::kReachReports};
+                                       Topic::kReachReports,
+                                       Topic::kStores};
   if (message.index() >= std::size(kInOrder)) return std::nullopt;
   return kInOrder[message.index()];
 }
@@ -204,6 +205,8 @@ const char* NameOf(Topic topic) {
       return "trailcast/reach_requests";
     case Topic::kReachReports:
       return "trailcast/reach_reports";
+    case Topic::kStores:
+      return "trailcast/stores";
   }
   return "unknown topic";
 }

@@ -29,6 +29,7 @@ constexpr NewerTopic kNewerTopics[] = {
     {exchange::Topic::kNetworkReplies, "routes were joined"},
     {exchange::Topic::kFollowed, "robots told servers where they lose their path"},
     {exchange::Topic::kReachRequests, "members were asked whom they hear"},
+    {exchange::Topic::kStores, "servers told each other what they hold"},
 };
 
 Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::TopicUse& use) {

@@ -61,8 +61,11 @@ void TakeLabels(RouteInfo& info, const RouteInfo& from) {
 }
 
 bool HasLaterLabels(const RouteInfo& info, const RouteInfo& than) {
+  const auto is_deleted = [](const RouteInfo& each) { return each.standing == Standing::kDeleted; };
+  if (is_deleted(info) != is_deleted(than)) return is_deleted(info);
   const auto rank = [](const RouteInfo& each) {
-    return std::tie(each.edition, each.revision, each.standing);
+    return std::tuple(each.edition, each.revision, each.standing, !each.to_review,
+                      std::tie(each.name, each.tags, each.description));
   };
   return rank(than) < rank(info);
 }
@@ -79,12 +82,7 @@ Result<RouteInfo> AfterNews(const RouteInfo& known, const RouteInfo& news) {
   if (HasLaterLabels(news, known)) TakeLabels(labelled, news);
   if (labelled.standing == Standing::kDeleted || IsOldNews(news, known)) return labelled;
   if (known.state == RouteState::kComplete) {
-    // What servers change by themselves is settled above.
-    RouteInfo told = news;
-    told.revision = known.revision;
-    told.standing = known.standing;
-    const bool same = news.edition == known.edition ? told == known : SameTeaching(news, known);
-    if (same) return labelled;
+    if (SameTeaching(news, known)) return labelled;
     return Fail(ErrorCode::kConflict,
                 "{} is complete with {} segments and cannot change; teach it again",
                 Describe(known), known.segment_count);

@@ -34,6 +34,7 @@ struct AuthorIn {
   AgentId operator()(const exchange::FollowedStretches& m) { return m.agent; }
   AgentId operator()(const exchange::ReachRequest& m) { return m.client; }
   AgentId operator()(const exchange::ReachReport& m) { return m.agent; }
+  AgentId operator()(const exchange::StoreSummary& m) { return m.server; }
   AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
 };
 

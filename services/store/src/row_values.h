@@ -12,6 +12,9 @@
 
 namespace trailcast::store {
 
+// Behind lower-case hexadecimal digits: past all that begins with them.
+inline constexpr const char* kAfterHexDigits = "g";
+
 // What rows are made of, whatever database holds them.
 
 using SqlValue = std::variant<std::monostate, std::string, std::int64_t, double>;  // first: NULL

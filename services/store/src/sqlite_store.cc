@@ -280,6 +280,23 @@ Result<std::vector<KnownTeaching>> SqliteRouteStore::FindTeachings(const RouteId
   });
 }
 
+Result<std::vector<RouteInfo>> SqliteRouteStore::FindRoutesWithin(const std::string& id_prefix) {
+  return Guarded("looking up routes by id", [&]() -> Result<std::vector<RouteInfo>> {
+    static const std::string where = " WHERE route >= ?1 AND route < ?2 ";
+    static const std::string sql = fmt::format(
+        "SELECT {0} FROM route{1}UNION ALL SELECT {0} FROM tombstone{1}ORDER BY route, teaching",
+        kRouteColumns, where);
+    auto select = compiled_.Take(sql);
+    select->bind(1, id_prefix);
+    select->bind(2, id_prefix + kAfterHexDigits);
+    std::vector<RouteInfo> found;
+    while (select->executeStep()) {
+      if (auto info = ReadRoute(*select)) found.push_back(std::move(*info));
+    }
+    return found;
+  });
+}
+
 Result<std::vector<RouteInfo>> SqliteRouteStore::ListRoutes() {
   return SelectRoutes("route", kNewestFirst, [](SQLite::Statement&) {});
 }

@@ -147,5 +147,28 @@ TEST(CheckBounds, RefusesWhatNobodyHears) {
   ExpectRefused(ReachRequest{.client = AgentId("o"), .relayed = true}, "server");
 }
 
+TEST(CheckBounds, ASummaryOfAStoreTellsPartsOrRevisionsBelowAWholeNumberOfDigitPairs) {
+  const StoreSummary good{.server = AgentId("s"), .prefix = "a3"};
+  EXPECT_TRUE(CheckBounds(good));
+  for (const std::string prefix : {"a", "A3", "xy", "a3f"}) {
+    StoreSummary message = good;
+    message.prefix = prefix;
+    ExpectRefused(message, "route ids");
+  }
+  StoreSummary parts = good;
+  parts.parts.resize(256);
+  EXPECT_TRUE(CheckBounds(parts));
+  parts.entries.push_back({KeyNumber(1), 1});
+  ExpectRefused(parts, "either 256 parts");
+  parts.entries.clear();
+  parts.parts.resize(255);
+  ExpectRefused(parts, "255 parts");
+  StoreSummary many = good;
+  many.entries.resize(kMaxEntriesTold + 1, {KeyNumber(1), 1});
+  ExpectRefused(many, "4097");
+  many.entries = {{route::RouteKey{}, 1}};
+  ExpectRefused(many, "route id");
+}
+
 }  // namespace
 }  // namespace trailcast::exchange

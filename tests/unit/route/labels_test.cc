@@ -38,8 +38,20 @@ TEST(Labels, ACompleteTeachingNeverChanges) {
   EXPECT_EQ(AfterNews(known, other).value(), other);
   other.camera = "another";
   EXPECT_EQ(AfterNews(known, other).error().code, ErrorCode::kConflict);
-  EXPECT_EQ(AfterNews(known, Edited(known, "park", 2)).error().code, ErrorCode::kConflict)
-      << "two labels of one edition";
+}
+
+TEST(Labels, OfTwoThatCameToOneEditionApartTheSameCountsForBoth) {
+  const RouteInfo taught = Edited(Taught(3, RouteState::kComplete), "garden", 2);
+  RouteInfo tagged = taught;
+  tagged.tags = {"wet"};
+  RouteInfo described = taught;
+  described.description = "behind the house";
+  RouteInfo to_review = taught;
+  to_review.to_review = true;
+  for (const RouteInfo& other : {Edited(taught, "park", 2), tagged, described, to_review}) {
+    EXPECT_EQ(AfterNews(taught, other).value(), AfterNews(other, taught).value());
+    EXPECT_NE(HasLaterLabels(taught, other), HasLaterLabels(other, taught));
+  }
 }
 
 TEST(Labels, ThatItWasReviewedIsLaterNewsThanThatItIsToBe) {
@@ -71,6 +83,8 @@ TEST(Labels, WhatIsDeletedStaysDeleted) {
   EXPECT_EQ(AfterNews(Taught(9), tombstone).value(),
             Edited(Taught(9), "yard", 1, Standing::kDeleted));
   EXPECT_EQ(AfterNews(tombstone, Edited(Taught(9), "park", 7)).value(), tombstone);
+  EXPECT_EQ(AfterNews(Edited(Taught(3), "park", 7), tombstone).value(), tombstone)
+      << "however often it was changed where it was not known yet";
 }
 
 }  // namespace

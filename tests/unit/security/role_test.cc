@@ -37,6 +37,7 @@ TEST(Role, OnlyOperatorsEditRoutesAndOnlyServersReceiptOrReply) {
         << NameOf(role);
     EXPECT_EQ(may(Topic::kReachReports), role != Role::kOperator && role != Role::kObserver)
         << NameOf(role);
+    EXPECT_EQ(may(Topic::kStores), role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kReceipts), role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kCatalogReplies), role == Role::kServer) << NameOf(role);
   }

@@ -46,6 +46,7 @@ TEST_P(RouteQueryContract, TagsAndPlaceComeBackAndGoWithWhatReplacesThem) {
   EXPECT_EQ(store_->FindRoute(kYard).value(), info);
   info.segment_count = 3;
   info.tags = {"day"};
+  info.edition = 1;
   info.place.reset();
   ASSERT_TRUE(store_->PutRoute(info));
   EXPECT_EQ(store_->FindRoute(kYard).value(), info);

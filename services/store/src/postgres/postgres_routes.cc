@@ -228,6 +228,24 @@ Result<std::vector<KnownTeaching>> PostgresRouteStore::FindTeachings(const Route
       });
 }
 
+Result<std::vector<RouteInfo>> PostgresRouteStore::FindRoutesWithin(const std::string& id_prefix) {
+  return session_->Run(
+      Kind::kRead, "looking up routes by id",
+      [&](Transaction& transaction) -> Result<std::vector<RouteInfo>> {
+        PostgresValues values;
+        values.Add(id_prefix);
+        values.Add(id_prefix + kAfterHexDigits);
+        const std::string where = "WHERE route >= $1 AND route < $2 ";
+        std::vector<RouteInfo> found;
+        for (const pqxx::row& row : values.Execute(
+                 transaction, SelectFrom("route") + where + "UNION ALL " + SelectFrom("tombstone") +
+                                  where + "ORDER BY route, teaching")) {
+          if (auto info = ReadRoute(row)) found.push_back(std::move(*info));
+        }
+        return found;
+      });
+}
+
 Result<std::vector<RouteInfo>> PostgresRouteStore::ListRoutes() {
   return SelectRoutes({}, SelectFrom("route") + kNewestFirst);
 }

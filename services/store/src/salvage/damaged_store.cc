@@ -60,6 +60,9 @@ class ReadOnlyStore final : public RouteStore {
   Result<std::vector<RouteInfo>> FindRevisions(const RouteId& route) override {
     return store_->FindRevisions(route);
   }
+  Result<std::vector<RouteInfo>> FindRoutesWithin(const std::string& id_prefix) override {
+    return store_->FindRoutesWithin(id_prefix);
+  }
   Result<std::vector<KnownTeaching>> FindTeachings(const RouteId& route) override {
     return store_->FindTeachings(route);
   }
