@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <map>
 #include <set>
 #include <string>
 
@@ -73,6 +74,38 @@ std::string SeriesOf(const fs::path& file) {
   return numbered ? stem.substr(0, number) : stem;
 }
 
+// 12 of "drive_12.db3"; not of a date or a time, which recorders put there, too.
+std::optional<std::uint64_t> NumberInSeries(const fs::path& file) {
+  constexpr std::size_t kMostDigits = 4;
+  const std::string stem = PlainName(file).stem().string();
+  const std::size_t from = SeriesOf(file).size() + 1;
+  if (from >= stem.size() || stem.size() - from > kMostDigits) return std::nullopt;
+  return NumberIn(stem.substr(from));
+}
+
+// What nothing lists can be seen to lack something only by its numbers.
+void NoteGaps(const std::set<fs::path>& listed, BagParts& parts) {
+  std::map<std::pair<std::string, std::uint64_t>, fs::path> numbered;
+  const auto add = [&](const fs::path& file) {
+    if (const auto number = NumberInSeries(file)) {
+      numbered.emplace(std::pair(SeriesOf(file), *number), file.filename());
+    }
+  };
+  std::for_each(listed.begin(), listed.end(), add);
+  std::for_each(parts.files.begin(), parts.files.end(), add);
+  for (auto at = numbered.begin(); at != numbered.end(); ++at) {
+    const auto next = std::next(at);
+    if (next == numbered.end()) break;
+    const auto& [series, number] = at->first;
+    const bool gap = next->first.first == series && next->first.second > number + 1;
+    if (!gap || listed.contains(PlainName(next->second))) continue;
+    parts.differences.push_back(
+        fmt::format("{}_{}: not there, nor what else there was between {} and {}: that part of the "
+                    "drive is left out",
+                    series, number + 1, at->second.string(), next->second.string()));
+  }
+}
+
 // Players unpack files beside themselves.
 std::optional<fs::path> PackedOrNot(const fs::path& file) {
   std::error_code unknown;
@@ -124,6 +157,7 @@ BagParts OfFolder(const fs::path& folder) {
         fmt::format("{}: not listed in metadata.yaml, {}", file.filename().string(),
                     taken ? "but read" : "and of another name than what is: left out"));
   }
+  NoteGaps(listed, parts);
   return parts;
 }
 

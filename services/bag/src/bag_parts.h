@@ -15,7 +15,7 @@ namespace trailcast::bag {
 // are named otherwise than those listed.
 struct BagParts {
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> differences;   // from what metadata.yaml lists, a line each
+  std::vector<std::string> differences;   // from what metadata.yaml lists, and gaps, a line each
   std::optional<std::uint64_t> messages;  // that metadata.yaml counts
 };
 [[nodiscard]] Result<BagParts> FindParts(const std::filesystem::path& file_or_folder);

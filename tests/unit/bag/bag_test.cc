@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -216,6 +217,20 @@ TEST(Bag, AFolderWhoseRecorderCrashedHasNoMetadata) {
   const auto bag = OpenBag(folder.path());
   ASSERT_TRUE(bag);
   ExpectRecorded(*bag, 10);
+}
+
+TEST(Bag, APartThatIsMissingIsToldAlsoWithoutMetadata) {
+  const test::TempDir folder;
+  { Record(*std::make_unique<test::Db3Writer>(folder / "run_0.db3"), 0, 5); }
+  { Record(*std::make_unique<test::Db3Writer>(folder / "run_2.db3"), 10, 5); }
+  { Record(*std::make_unique<test::Db3Writer>(folder / "run_20261130.db3"), 20, 5); }
+  const auto damage = [&] { return OpenBag(folder.path())->damage(); };
+  const auto gap =
+      AllOf(HasSubstr("run_1: not there"), HasSubstr("run_0.db3"), HasSubstr("run_2.db3"));
+  EXPECT_THAT(damage(), ElementsAre(gap));
+  EXPECT_EQ(ReadAll(*OpenBag(folder.path()), "/odom").size(), 15U);
+  std::ofstream(folder / "metadata.yaml") << "  relative_file_paths:\n    - run_0.db3\n";
+  EXPECT_THAT(damage(), Contains(gap)) << "its recorder ended before it listed all";
 }
 
 TEST(Bag, MessagesMayBeCompressedOneByOne) {
