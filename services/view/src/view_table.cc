@@ -1,10 +1,13 @@
 #include "services/view/view_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "services/view/src/likest.h"
@@ -38,59 +41,109 @@ std::vector<Comparison::Pair> FindAlike(const ViewTable& key, const ViewTable& s
   return pairs;
 }
 
+// Pairs as a fit is tried on them, hundreds of times: side by side, so that a processor takes
+// several at once, and filled up with pairs that belong to no fit.
+class Row {
+ public:
+  Row(const ViewTable& key, const ViewTable& seen, std::span<const Comparison::Pair> pairs,
+      const ComparisonOptions& options)
+      : per_u_(static_cast<float>(1.0 / options.agree_u)),
+        per_v_(static_cast<float>(1.0 / options.agree_v)),
+        most_grown_(static_cast<float>(std::exp(options.agree_log_size))) {
+    constexpr float kNowhere = 1e9F;
+    const std::size_t filled = (pairs.size() + kLanes - 1) / kLanes * kLanes;
+    key_u_.resize(filled);
+    key_v_.resize(filled);
+    seen_u_.resize(filled, kNowhere);
+    seen_v_.resize(filled, kNowhere);
+    grown_.resize(filled);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      key_u_[i] = key.u[pairs[i].key];
+      key_v_[i] = key.v[pairs[i].key];
+      seen_u_[i] = seen.u[pairs[i].seen];
+      seen_v_[i] = seen.v[pairs[i].seen];
+      grown_[i] = std::exp(seen.log_size[pairs[i].seen] - key.log_size[pairs[i].key]);
+    }
+  }
+
+  // The sum over the pairs that belong to it, each the less the further off it is.
+  [[nodiscard]] float Likeness(const Fit& fit) const {
+    const auto scale = static_cast<float>(fit.scale);
+    const auto shift_u = static_cast<float>(fit.shift_u);
+    const auto shift_v = static_cast<float>(fit.shift_v);
+    const float most = scale * most_grown_;
+    const float least = scale / most_grown_;
+    std::array<float, kLanes> sums{};
+    for (std::size_t i = 0; i < key_u_.size(); i += kLanes) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const std::size_t at = i + lane;
+        const float off_u = std::abs(seen_u_[at] - scale * key_u_[at] - shift_u) * per_u_;
+        const float off_v = std::abs(seen_v_[at] - scale * key_v_[at] - shift_v) * per_v_;
+        const float off = off_u > off_v ? off_u : off_v;
+        const float near = 1.0F - off * off;
+        float belongs = near > 0.0F ? near : 0.0F;
+        // False where one of the sizes is not known.
+        belongs = grown_[at] > most ? 0.0F : belongs;
+        sums[lane] += grown_[at] < least ? 0.0F : belongs;
+      }
+    }
+    return std::accumulate(sums.begin(), sums.end(), 0.0F);
+  }
+
+ private:
+  static constexpr std::size_t kLanes = 8;
+
+  float per_u_;
+  float per_v_;
+  float most_grown_;
+  std::vector<float> key_u_, key_v_, seen_u_, seen_v_;
+  std::vector<float> grown_;  // how much larger it is seen than it was; NaN: not known
+};
+
 // Two views and what may be alike in them.
 class Agreement {
  public:
   Agreement(const ViewTable& key, const ViewTable& seen, const ComparisonOptions& options)
-      : key_(key), seen_(seen), options_(options), alike_(FindAlike(key, seen, options)) {}
+      : key_(key),
+        seen_(seen),
+        options_(options),
+        alike_(FindAlike(key, seen, options)),
+        row_(key, seen, alike_, options) {}
 
   [[nodiscard]] Comparison Best() const {
-    double likeness = 0.0;
+    float likeness = 0.0F;
     Fit best;
     for (std::size_t a = 1; a < alike_.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
         const auto fit = FitTwo(key_, seen_, alike_[a], alike_[b], options_.shortest_base);
         if (!fit || fit->scale < options_.least_scale || fit->scale > options_.most_scale) continue;
-        const double found = Likeness(*fit);
+        const float found = row_.Likeness(*fit);
         if (found <= likeness) continue;
         likeness = found;
         best = *fit;
       }
     }
-    if (likeness == 0.0) return {};
+    if (likeness == 0.0F) return {};
     Comparison comparison = LeastSquares(Belonging(best));
     comparison.likeness = likeness;
     return comparison;
   }
 
  private:
-  // 0 for a pair that does not belong to the fit, else up to 1.
-  [[nodiscard]] double Belongs(const Comparison::Pair& pair, const Fit& fit,
-                               double log_scale) const {
-    const double off_u = std::abs(seen_.u[pair.seen] - fit.scale * key_.u[pair.key] - fit.shift_u) /
-                         options_.agree_u;
-    const double off_v = std::abs(seen_.v[pair.seen] - fit.scale * key_.v[pair.key] - fit.shift_v) /
-                         options_.agree_v;
-    const double off = std::max(off_u, off_v);
-    if (off >= 1.0) return 0.0;
+  [[nodiscard]] bool Belongs(const Comparison::Pair& pair, const Fit& fit, double log_scale) const {
+    const double off_u = seen_.u[pair.seen] - fit.scale * key_.u[pair.key] - fit.shift_u;
+    const double off_v = seen_.v[pair.seen] - fit.scale * key_.v[pair.key] - fit.shift_v;
     // False where one of the sizes is not known.
     const double grown = seen_.log_size[pair.seen] - key_.log_size[pair.key];
-    if (std::abs(grown - log_scale) > options_.agree_log_size) return 0.0;
-    return 1.0 - off * off;
-  }
-
-  [[nodiscard]] double Likeness(const Fit& fit) const {
-    const double log_scale = std::log(fit.scale);
-    double sum = 0.0;
-    for (const Comparison::Pair& pair : alike_) sum += Belongs(pair, fit, log_scale);
-    return sum;
+    return std::abs(off_u) < options_.agree_u && std::abs(off_v) < options_.agree_v &&
+           !(std::abs(grown - log_scale) > options_.agree_log_size);
   }
 
   [[nodiscard]] std::vector<Comparison::Pair> Belonging(const Fit& fit) const {
     const double log_scale = std::log(fit.scale);
     std::vector<Comparison::Pair> pairs;
     for (const Comparison::Pair& pair : alike_) {
-      if (Belongs(pair, fit, log_scale) > 0.0) pairs.push_back(pair);
+      if (Belongs(pair, fit, log_scale)) pairs.push_back(pair);
     }
     return pairs;
   }
@@ -123,6 +176,7 @@ class Agreement {
   const ViewTable& seen_;
   const ComparisonOptions& options_;
   std::vector<Comparison::Pair> alike_;
+  Row row_;
 };
 
 }  // namespace
