@@ -17,6 +17,17 @@ struct ViewFeatureOptions {
   int least_contrast_grey = 7;  // of a corner against what surrounds it: dusk has no more
 };
 
+// Makes of each frame one of as many pixels as views are looked at with. A smaller one stays as it
+// is.
+class ViewPicture {
+ public:
+  // Valid until the next call; `frame` itself where nothing is to be done.
+  [[nodiscard]] const image::GrayImage& Reduce(const image::GrayImage& frame);
+
+ private:
+  image::GrayImage reduced_;
+};
+
 // What a frame shows, to recognise it by: upright ORB features over a pyramid (Rublee et al. 2011,
 // without their rotation: robots stand upright), the strongest first. Not of the black surround
 // that some lenses leave: what has been black in all pictures of this size so far. Nothing of a

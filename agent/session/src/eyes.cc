@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trailcast::agent {
 namespace {
@@ -12,6 +13,9 @@ constexpr double kStands_m = 1e-4;
 constexpr double kStands_rad = 1e-4;
 constexpr double kMoves_flow = 0.0015;
 constexpr double kFrozen_s = 0.3;
+// Features that tell flow; how far apart, as a share of the picture's width.
+constexpr std::size_t kMostForFlow = 60;
+constexpr double kForFlowApart = 0.07;
 
 // How far most features moved between two frames, as a share of the picture's width.
 std::optional<double> Flow(const std::vector<teach::MovedFeature>& features, int width_px) {
@@ -23,6 +27,21 @@ std::optional<double> Flow(const std::vector<teach::MovedFeature>& features, int
   const auto middle = moved.begin() + std::ssize(moved) / 2;
   std::nth_element(moved.begin(), middle, moved.end());
   return *middle / width_px;
+}
+
+// The strong ones of a view, whose order is by strength; in pixels of a picture of that width.
+std::vector<route::TrackedFeature> SpreadOf(const view::ViewTable& view, int width_px) {
+  std::vector<route::TrackedFeature> spread;
+  const double least_px = kForFlowApart * width_px;
+  for (std::size_t i = 0; i < view.size() && spread.size() < kMostForFlow; ++i) {
+    const double u_px = 0.5 * width_px * view.u[i];
+    const double v_px = 0.5 * width_px * view.v[i];
+    const bool alone = std::none_of(spread.begin(), spread.end(), [&](const auto& other) {
+      return std::abs(other.u_px - u_px) < least_px && std::abs(other.v_px - v_px) < least_px;
+    });
+    if (alone) spread.push_back({static_cast<int>(spread.size()), u_px, v_px});
+  }
+  return spread;
 }
 
 }  // namespace
@@ -61,24 +80,34 @@ Result<Seen> Eyes::See(const Observation& observation) {
   last_stamp_ = observation.stamp;
   seen.measured = Driven(observation);
   is_told_ = by_commands_ && observation.told.has_value();
-  std::optional<motion::OdometryIncrement> told;
-  if (observation.told) told = told_.Drive(*observation.told, seen.dt_s);
-  if (is_told_) seen.told = told;
+  told_step_.reset();
+  if (observation.told) told_step_ = told_.Drive(*observation.told, seen.dt_s);
+  if (is_told_) seen.told = told_step_;
   seen.driven = seen.measured ? seen.measured : seen.told;
   seen.unknown = observation.unknown;
   if (!seen.measured && seen.told) seen.unknown = DoubtOfTold(*seen.told);
   if (observation.stands) seen.stands = &*observation.stands;
+  return seen;
+}
+
+void Eyes::Track(Seen& seen, FollowedFor what) {
+  if (std::exchange(followed_for_, what) != what) tracker_ = vision::FeatureTracker();
+  seen.followed_in = what == FollowedFor::kFlow ? &reduced_.Reduce(*seen.frame) : seen.frame;
+  const image::GrayImage& picture = *seen.followed_in;
+  followed_width_px_ = picture.width;
   const std::vector<route::TrackedFeature> before = tracker_.Current();
-  seen.features = tracker_.Track(*seen.frame, seen.driven ? seen.driven->heading_change_rad : 0.0);
+  seen.features = tracker_.Track(picture, seen.driven ? seen.driven->heading_change_rad : 0.0);
   const auto moved = teach::MovedBetween(before, seen.features);
-  mount_.Add(moved, told, seen.measured, seen.dt_s,
-             std::max(seen.frame->width, seen.frame->height));
-  const auto flow = Flow(moved, seen.frame->width);
+  mount_.Add(moved, told_step_, seen.measured, seen.dt_s, std::max(picture.width, picture.height));
+  const auto flow = Flow(moved, picture.width);
   if (flow) usual_flow_ += kUsual * (*flow - usual_flow_);
   seen.flow = flow.value_or(1.0);
   seen.usual_flow = usual_flow_;
   seen.frozen = IsFrozen(seen);
-  return seen;
+}
+
+void Eyes::FollowSomeOf(const view::ViewTable& view) {
+  tracker_.Follow(SpreadOf(view, followed_width_px_));
 }
 
 const image::GrayImage* Eyes::Pass(const Observation& observation) {

@@ -12,15 +12,19 @@
 #include "services/image/image.h"
 #include "services/motion/motion.h"
 #include "services/route/tracked_feature.h"
+#include "services/view/view_table.h"
 #include "services/vision/feature_tracker.h"
 #include "services/vision/picture_intake.h"
+#include "services/vision/view_features.h"
 
 namespace trailcast::agent {
 
 // What one frame shows.
 struct Seen {
-  const image::GrayImage* frame = nullptr;      // as the intake makes it; until the next
-  std::vector<route::TrackedFeature> features;  // those that are followed, where they are now
+  const image::GrayImage* frame = nullptr;  // as the intake makes it; until the next
+  // The same as its features are followed in it; the frame itself, or reduced.
+  const image::GrayImage* followed_in = nullptr;
+  std::vector<route::TrackedFeature> features;  // those that are followed, where they are now there
   // How far most moved, as a share of the width; 1 where they are too few to tell.
   double flow = 0.0;
   double usual_flow = 0.0;  // the same, lately, as far as it could be told
@@ -36,6 +40,12 @@ struct Seen {
   double looked_s = 0.0;  // the same, and no longer than kLongestFrame_s
 };
 
+// What features are followed for.
+enum class FollowedFor {
+  kPlace,  // they are a segment's, and tell where the robot is
+  kFlow,   // any, in a reduced picture: they tell whether it moves
+};
+
 // A picture's first station: checked, taken in, its features tracked.
 class Eyes {
  public:
@@ -46,8 +56,12 @@ class Eyes {
   // From the next frame on pictures are taken in so; what was tracked is lost.
   void Turn(const vision::IntakeOptions& intake);
 
-  // Errors: those of FrameCheck.
+  // All but the features and what they tell, which come by Track, of each frame. Errors: those of
+  // FrameCheck.
   [[nodiscard]] Result<Seen> See(const Observation& observation);
+  void Track(Seen& seen, FollowedFor what);
+  // Goes on with features of a view of the last frame, strong ones that are spread over it.
+  void FollowSomeOf(const view::ViewTable& view);
 
   // The same frame without a look; valid as Seen::frame.
   [[nodiscard]] const image::GrayImage* Pass(const Observation& observation);
@@ -75,6 +89,10 @@ class Eyes {
   bool by_commands_;
   ToldMotion told_;
   MountWatch mount_;
+  vision::ViewPicture reduced_;
+  FollowedFor followed_for_ = FollowedFor::kPlace;
+  int followed_width_px_ = 0;                           // of the picture they are followed in
+  std::optional<motion::OdometryIncrement> told_step_;  // since the last frame
   double usual_flow_ = 0.0;
   double frozen_s_ = 0.0;
   bool is_told_ = false;

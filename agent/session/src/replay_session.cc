@@ -69,7 +69,7 @@ struct ReplaySession::State {
   void ToRoute(Seen& seen) const;
   void Doubt(Seen& seen) const;
   [[nodiscard]] Evidence EvidenceOf(const ReplayStep& step) const;
-  [[nodiscard]] ReplayStep Follow(const Seen& seen);
+  [[nodiscard]] ReplayStep Follow(const Seen& seen, bool looked);
   [[nodiscard]] bool CarriedByOdometry(const ReplayStep& features) const;
   [[nodiscard]] bool ViewsKnowBetter(const ReplayStep& features, const ReplayStep& views) const;
   [[nodiscard]] ReplayStep Turned(double turn_deg, const Observation& observation);
@@ -138,7 +138,8 @@ void ReplaySession::State::StartPlace(int width_px) {
   }
 }
 
-// A robot that is sure of its features asks what is recognised of the route only now and then.
+// A robot that is sure of its features asks what is recognised of the route only now and then, and
+// one that goes by that does so unless its picture stands.
 bool ReplaySession::State::Locate(const Seen& seen) {
   if (!begun) StartPlace(seen.frame->width);
   FrameMotion along{seen.measured,           seen.told,  seen.flow, seen.dt_s,
@@ -148,8 +149,9 @@ bool ReplaySession::State::Locate(const Seen& seen) {
     if (along.told) along.told->distance_m = -along.told->distance_m;
   }
   place.Move(along);
-  const bool looks = steers_by_views || standing.trust != Trust::kSure || place.LookIsDue();
-  if (looks) place.LookAt(*seen.frame);
+  const bool asks = ByViews() ? place.HasMoved() : steers_by_views;
+  const bool looks = asks || standing.trust != Trust::kSure || place.LookIsDue();
+  if (looks) place.LookAt(*seen.followed_in, seen.frame->width);
   return looks;
 }
 
@@ -202,11 +204,12 @@ bool ReplaySession::State::CarriedByOdometry(const ReplayStep& features) const {
          place.TrustInOdometry().value_or(0.0) >= kBelieved;
 }
 
-ReplayStep ReplaySession::State::Follow(const Seen& seen) {
+ReplayStep ReplaySession::State::Follow(const Seen& seen, bool looked) {
   if (ByViews()) {
     steers_by_views = true;
     ReplayStep views = by_views.Step(seen.looked_s);
-    eyes.tracker().Detect();  // whose flow tells whether the robot moves
+    // Whose flow tells whether the robot moves.
+    if (looked) eyes.FollowSomeOf(place.look().seen);
     standing = StandingOf(views);
     return views;
   }
@@ -315,6 +318,8 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
     return s.StepWithoutPicture(seen.error().message);
   }
   s.without_picture_s = 0.0;
+  const bool by_views = !s.route.segments().empty() && s.ByViews();
+  s.eyes.Track(*seen, by_views ? FollowedFor::kFlow : FollowedFor::kPlace);
   s.picture = seen->frame;
   seen->looked_s = s.looked_s;
   if (!UsesOdometry(s.options.method)) seen->driven.reset();
@@ -327,7 +332,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   if (const auto turn_deg = s.upright.Look(*seen, s.place)) {
     return s.last = s.Turned(*turn_deg, observation);
   }
-  s.last = s.Follow(*seen);
+  s.last = s.Follow(*seen, looked);
   s.last.turned = s.turned;
   if (s.views_met && looked && s.standing.trust == Trust::kSure) s.views_met->See(s.place);
   if (!AsPrinted(s.options.method)) s.last.command = s.pace.Within(s.last.command);

@@ -26,15 +26,20 @@ TEST(Recogniser, TellsWhichViewsAreSeenAndHowTheyMapOntoThePicture) {
   recogniser.Learn(ViewsOf({7}));
   const image::GrayImage frame =
       test::PaintedWall(7).Photograph({.scale = 1.2, .du_px = 10.0, .noise_grey = 2.0});
-  const Look look = recogniser.LookAt(frame, std::vector<std::size_t>{0, 2});
-  ASSERT_EQ(look.Compared().size(), 2U);
-  EXPECT_LT(look.Compared()[0].agreed, 7);
-  EXPECT_GE(look.Compared()[1].agreed, 10);
-  ASSERT_NE(look.Best(), nullptr);
-  EXPECT_EQ(look.Best()->view, 2U);
-  const vision::ViewFit fit = recogniser.FitOf(look, look.Best()->comparison);
-  EXPECT_NEAR(fit.scale, 1.2, 0.04);
-  EXPECT_NEAR(fit.du_px, 10.0, 3.0);
+  vision::ViewPicture reducer;
+  const image::GrayImage& reduced = reducer.Reduce(frame);
+  ASSERT_LT(reduced.width, frame.width);
+  for (const image::GrayImage* picture : {&frame, &reduced}) {
+    const Look look = recogniser.LookAt(*picture, frame.width, std::vector<std::size_t>{0, 2});
+    ASSERT_EQ(look.Compared().size(), 2U);
+    EXPECT_LT(look.Compared()[0].agreed, 7);
+    EXPECT_GE(look.Compared()[1].agreed, 10);
+    ASSERT_NE(look.Best(), nullptr);
+    EXPECT_EQ(look.Best()->view, 2U);
+    const vision::ViewFit fit = recogniser.FitOf(look, look.Best()->comparison);
+    EXPECT_NEAR(fit.scale, 1.2, 0.04);
+    EXPECT_NEAR(fit.du_px, 10.0, 3.0);
+  }
 }
 
 TEST(Recogniser, HowAPlaceLookedLaterSaysNothingOfHowThingsGrowOnTheWay) {
@@ -54,7 +59,7 @@ TEST(Recogniser, HowAPlaceLookedLaterSaysNothingOfHowThingsGrowOnTheWay) {
 
 TEST(Recogniser, NothingToCompareIsNothingSeen) {
   Recogniser recogniser(320);
-  const Look look = recogniser.LookAt(test::PaintedWall(7).Photograph({}), {});
+  const Look look = recogniser.LookAt(test::PaintedWall(7).Photograph({}), 320, {});
   EXPECT_TRUE(look.Compared().empty());
   EXPECT_EQ(look.Best(), nullptr);
 }

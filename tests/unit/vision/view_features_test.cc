@@ -44,6 +44,35 @@ TEST(DescribeForQuery, SeesNothingInABlankPicture) {
       DescribeForQuery({160, 120, std::vector<std::uint8_t>(std::size_t{160} * 120, 90)}).empty());
 }
 
+// What is looked for in a frame is what is looked for in the picture that it is reduced to.
+TEST(ViewPicture, ShowsWhatItsFrameDoes) {
+  const test::PaintedWall wall(5);
+  for (const int enlarged : {1, 2, 4}) {
+    const image::GrayImage frame = wall.Photograph(
+        {.scale = 1.0 * enlarged, .width = 320 * enlarged, .height = 200 * enlarged});
+    ViewPicture reducer;
+    const image::GrayImage& picture = reducer.Reduce(frame);
+    EXPECT_NEAR(picture.width * picture.height, ViewFeatureOptions{}.pixels, 400);
+    ViewDescriber describer;
+    const view::ViewTable whole = view::Tabulate(describer.Describe(frame), frame.width);
+    const view::ViewTable reduced = view::Tabulate(describer.Describe(picture), picture.width);
+    ASSERT_GT(whole.size(), 50U);
+    EXPECT_EQ(reduced.bits, whole.bits);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      EXPECT_NEAR(reduced.u[i], whole.u[i], 1e-4);
+      EXPECT_NEAR(reduced.v[i], whole.v[i], 1e-4);
+    }
+  }
+}
+
+TEST(ViewPicture, ASmallFrameIsLeftAsItIs) {
+  const image::GrayImage frame = test::PaintedWall(5).Photograph({.width = 160, .height = 120});
+  ViewPicture reducer;
+  EXPECT_EQ(&reducer.Reduce(frame), &frame);
+  const image::GrayImage none;
+  EXPECT_EQ(&reducer.Reduce(none), &none);
+}
+
 TEST(ViewDescriber, AViewIsRecognisedAtOtherMagnificationsAndResolutions) {
   const test::PaintedWall wall(5);
   ViewDescriber describer;

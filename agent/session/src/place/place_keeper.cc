@@ -19,7 +19,6 @@ constexpr double kLookIsDue = 1.5;  // new looks; features are followed in the m
 constexpr double kNewLook_flow = 0.025;
 constexpr double kNewLook_m = 0.15;
 constexpr double kNewLook_rad = 0.2;
-constexpr double kLeastNew = 0.08;
 constexpr double kStill_flow = 0.0006;
 constexpr double kHere = 1.0;            // about the place; the route's units
 constexpr double kOdometrySigma = 0.05;  // a share of the way
@@ -88,10 +87,11 @@ void PlaceKeeper::SetTracked(const std::optional<RoutePoint>& point, int agreed)
 
 bool PlaceKeeper::LookIsDue() const { return !where().held || new_since_look_ >= kLookIsDue; }
 
-void PlaceKeeper::LookAt(const image::GrayImage& frame) {
+void PlaceKeeper::LookAt(const image::GrayImage& picture, int width_px) {
   belief::RouteBelief& belief = place_.belief();
   look_ = recogniser_.LookAt(
-      frame, belief.WorthComparing(kNearViews, where().held ? kOtherViews : kOtherViewsWhenLost));
+      picture, width_px,
+      belief.WorthComparing(kNearViews, where().held ? kOtherViews : kOtherViewsWhenLost));
   belief.Weigh(look_.Compared(), std::clamp(new_since_look_, kLeastNew, 1.0), tracked_);
   new_since_look_ = 0.0;
   looked_ = true;
@@ -118,8 +118,8 @@ int PlaceKeeper::AgreedIn(const image::GrayImage& picture) const {
 
 std::optional<vision::ViewFit> PlaceKeeper::Recognise(const image::GrayImage& frame,
                                                       const RoutePoint& point) {
-  const Look look =
-      recogniser_.LookAt(frame, belief().Around(place_.AlongOf(point), kViewsToRecognise));
+  const Look look = recogniser_.LookAt(frame, frame.width,
+                                       belief().Around(place_.AlongOf(point), kViewsToRecognise));
   const Look::Recognised* best = look.Best();
   if (best == nullptr || best->comparison.agreed() < kEnoughToRecognise) return std::nullopt;
   return recogniser_.FitOf(look, best->comparison);

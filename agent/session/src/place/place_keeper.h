@@ -43,15 +43,18 @@ class PlaceKeeper {
   // By so many features that are tracked the robot is there; nothing: they do not tell. Counts in
   // the next look.
   void SetTracked(const std::optional<RoutePoint>& point, int agreed);
-  // Compares a frame with the key views that are worth it. The next frame's look says more the more
-  // the picture has changed until then.
-  void LookAt(const image::GrayImage& frame);
+  // Compares a frame with the key views that are worth it; `width_px` as Recogniser::LookAt has it.
+  // The next frame's look says more the more the picture has changed until then.
+  void LookAt(const image::GrayImage& picture, int width_px);
   [[nodiscard]] const Look& look() const { return look_; }  // the last one
   // The features that agree in this frame with the view that is recognised best about the place; 0
   // where it was not looked at.
   [[nodiscard]] int agreed_now() const;
   // Once the robot has come some way since the last, and always while the place is not held.
   [[nodiscard]] bool LookIsDue() const;
+
+  // The picture has moved so far since the last look that another one tells more.
+  [[nodiscard]] bool HasMoved() const { return new_since_look_ >= kLeastNew; }
 
   // Of any picture: the features that agree in it with one of the views about the place. Moves no
   // belief.
@@ -79,6 +82,8 @@ class PlaceKeeper {
   [[nodiscard]] std::optional<double> Magnification(int width_px) const;
 
  private:
+  static constexpr double kLeastNew = 0.08;  // of a new look
+
   Recogniser recogniser_;
   RoutePlace place_;
   std::optional<belief::TrackedPlace> tracked_;

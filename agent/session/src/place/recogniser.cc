@@ -39,20 +39,21 @@ std::vector<std::optional<double>> Recogniser::Learn(std::span<const route::KeyV
   return growths;
 }
 
-Look Recogniser::LookAt(const image::GrayImage& frame, std::span<const std::size_t> views) {
-  return Compare(describer_.Describe(frame), frame.width, views);
+Look Recogniser::LookAt(const image::GrayImage& picture, int width_px,
+                        std::span<const std::size_t> views) {
+  return Compare(view::Tabulate(describer_.Describe(picture), picture.width), width_px, views);
 }
 
 Look Recogniser::Glance(const image::GrayImage& picture, std::span<const std::size_t> views) const {
   vision::ViewDescriber describer;
-  return Compare(describer.Describe(picture), picture.width, views);
+  return Compare(view::Tabulate(describer.Describe(picture), picture.width), picture.width, views);
 }
 
-Look Recogniser::Compare(const route::View& view, int width_px,
+Look Recogniser::Compare(view::ViewTable seen, int width_px,
                          std::span<const std::size_t> views) const {
   Look look;
   look.width_px = width_px;
-  look.seen = view::Tabulate(view, width_px);
+  look.seen = std::move(seen);
   look.views.reserve(views.size());
   for (const std::size_t key : views) {
     look.views.push_back({key, view::Compare(keys_[key], look.seen)});

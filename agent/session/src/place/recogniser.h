@@ -39,7 +39,9 @@ class Recogniser {
   // larger than the one before it; nothing where they have too little in common, and of those that
   // followers added.
   std::vector<std::optional<double>> Learn(std::span<const route::KeyView> views);
-  [[nodiscard]] Look LookAt(const image::GrayImage& frame, std::span<const std::size_t> views);
+  // `width_px`: of the frame that `picture` is, or was reduced from (vision::ViewPicture).
+  [[nodiscard]] Look LookAt(const image::GrayImage& picture, int width_px,
+                            std::span<const std::size_t> views);
   // The same of a picture that is none of this camera's as it is mounted.
   [[nodiscard]] Look Glance(const image::GrayImage& picture,
                             std::span<const std::size_t> views) const;
@@ -50,7 +52,7 @@ class Recogniser {
   [[nodiscard]] vision::ViewFit FitOf(const Look& look, const view::Comparison& comparison) const;
 
  private:
-  [[nodiscard]] Look Compare(const route::View& view, int width_px,
+  [[nodiscard]] Look Compare(view::ViewTable seen, int width_px,
                              std::span<const std::size_t> views) const;
 
   int scout_width_px_;

@@ -32,6 +32,8 @@ constexpr int kStays_bits = 60;
 constexpr double kElsewhere_m = 0.5;
 constexpr double kElsewhere = 0.15;
 constexpr std::size_t kMostThatStays = 500;
+// Not every look shows all of it: a corner of dirt is none where it meets what is alike behind it.
+constexpr std::size_t kSeenBefore = 3;
 
 bool IsSame(const view::ViewTable& a, std::size_t i, const view::ViewTable& b, std::size_t j) {
   return std::abs(a.u[i] - b.u[j]) < kStays && std::abs(a.v[i] - b.v[j]) < kStays &&
@@ -115,16 +117,18 @@ void ViewTaker::NoteWhatStays(const view::ViewTable& seen, const PlaceKeeper& pl
   const double along = place.where().along;
   const double elsewhere = place.metric() ? kElsewhere_m : kElsewhere;
   if (last_along_ && std::abs(along - *last_along_) < elsewhere) return;
-  for (std::size_t i = 0; last_along_ && i < seen.size(); ++i) {
-    if (stays_.size() >= kMostThatStays || !Has(last_seen_, seen, i) || Has(stays_, seen, i)) {
-      continue;
-    }
+  for (std::size_t i = 0; i < seen.size() && stays_.size() < kMostThatStays; ++i) {
+    const bool stayed =
+        std::any_of(last_seen_.begin(), last_seen_.end(),
+                    [&](const view::ViewTable& before) { return Has(before, seen, i); });
+    if (!stayed || Has(stays_, seen, i)) continue;
     stays_.bits.push_back(seen.bits[i]);
     stays_.u.push_back(seen.u[i]);
     stays_.v.push_back(seen.v[i]);
     stays_.log_size.push_back(seen.log_size[i]);
   }
-  last_seen_ = seen;
+  last_seen_.push_back(seen);
+  if (last_seen_.size() > kSeenBefore) last_seen_.pop_front();
   last_along_ = along;
 }
 

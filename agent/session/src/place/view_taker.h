@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -59,7 +60,7 @@ class ViewTaker {
   // What lies at one place of the picture wherever the robot is, as dirt on its lens does, by the
   // looks of one place and another.
   view::ViewTable stays_;
-  view::ViewTable last_seen_;
+  std::deque<view::ViewTable> last_seen_;  // from elsewhere, each
   std::optional<double> last_along_;
 };
 
