@@ -20,6 +20,7 @@ namespace trailcast::agent {
 // What the control loop tells of itself, a frame at a time.
 struct TeachingNow {
   std::optional<double> drive_progress;
+  double along_m = 0.0;  // taught by this drive, with the segment under way
   double speed_mps = 0.0;
   int features = 0;
   std::string stands;  // why the robot had to be stopped, one line for people; empty: it was not

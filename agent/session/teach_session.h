@@ -42,6 +42,7 @@ struct TaughtAnew {
 struct TeachStep {
   std::optional<route::Segment> finished;  // a segment that ended with this frame
   int features = 0;                        // still tracked in the current segment
+  double ahead_m = 0.0;                    // of the segment under way; 0 without odometry
   bool too_few_features = false;           // nothing to hold on to in this frame (dark, blank)
   bool reverse = false;                    // it is driven backwards, as followers will be
   // All segments handed out so far are void: those from the first one on come again.

@@ -303,7 +303,8 @@ void ScoutLink::ShowStatus(exchange::AgentMode mode, const std::string& detail) 
     const route::RouteInfo& info = outbox_.info(*key_);
     status.segments = info.segment_count;
     status.segment = info.segment_count;
-    if (options_.instance != 0) status.place = {*key_, info.length_m, 0.0, 0.0};
+    const double along_m = std::max(info.length_m, planned_->length_m + latest_.along_m);
+    if (options_.instance != 0) status.place = {*key_, along_m, 0.0, 0.0};
   }
   const bool driving = mode == exchange::AgentMode::kTeaching;
   status.progress = driving ? latest_.drive_progress.value_or(0.0) : 1.0;

@@ -220,6 +220,9 @@ TeachStep TeachSession::Take(const Observation& observation) {
   if (event == State::Event::kTurns) s.recording = State::Recording::kTurn;
   s.KeepView(frame);
   step.features = s.tracker.count();
+  if (observation.odometry && s.recording != State::Recording::kTurn) {
+    step.ahead_m = std::max(0.0, s.recorder.distance_m());
+  }
   step.weakness = s.key_views.weakness();
   step.too_few_features = s.recording != State::Recording::kFeatures;
   step.reverse = s.recorder.reverse();

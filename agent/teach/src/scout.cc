@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <deque>
 #include <set>
 #include <utility>
 
@@ -40,6 +41,7 @@ route::RouteInfo NewRoute(const ScoutOptions& options, const RobotDevice& device
 struct Drive {
   int frames = 0;
   std::size_t features = 0;  // in finished segments
+  double handed_m = 0.0;     // in those that were handed over
   bool has_odometry = false;
   bool dark = false;
   bool reverse = false;                                       // is driven backwards
@@ -48,11 +50,29 @@ struct Drive {
   Result<void> driven;  // to its end, or what kept it from that
 };
 
+// How fast the robot is by its odometry, which at the rate of pictures alone would jump.
+class Pace {
+ public:
+  // Forwards positive; 0 without odometry.
+  double Measure(const Observation& now) {
+    if (!now.odometry) return 0.0;
+    places_.emplace_back(now.stamp, *now.odometry);
+    while (places_.size() > 2 && now.stamp - places_[1].first >= kOver) places_.pop_front();
+    const auto& [since, from] = places_.front();
+    if (now.stamp <= since) return 0.0;
+    return motion::IncrementBetween(from, *now.odometry).distance_m / Seconds(now.stamp - since);
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds kOver{300};
+  std::deque<std::pair<SensorTime, motion::Pose2>> places_;
+};
+
 // Hands a finished segment over; never waits for it.
-Result<void> PassOn(route::Segment segment, ScoutLink& link, Drive& drive, TeachingNow& now) {
+Result<void> PassOn(route::Segment segment, ScoutLink& link, Drive& drive) {
   drive.features += segment.features.size();
   drive.has_odometry = segment.has_odometry;
-  now.speed_mps = segment.speed_mps();
+  drive.handed_m += segment.length_m;
   if (link.Offer(std::move(segment))) return {};
   return Fail(ErrorCode::kUnavailable, "the store does not keep up with teaching");
 }
@@ -96,6 +116,7 @@ Result<void> BeginAnew(const TaughtAnew& anew, const Observation& observation, S
       "its beginning; --camera-roll {:g} has it so at once",
       drive.frames, anew.text, anew.intake.roll_deg, anew.intake.roll_deg);
   drive.features = 0;
+  drive.handed_m = 0.0;
   const auto size =
       vision::WorkingSize({observation.image.width, observation.image.height}, anew.intake);
   if (link.BeginAnew(size.width, size.height)) return {};
@@ -137,10 +158,10 @@ Result<bool> Steer(RobotDevice& device, Hands* hands, motion::VelocityCommand& t
 }
 
 // One more of the frames that are taught again, if there are any.
-Result<void> CatchUp(TeachSession& session, ScoutLink& link, Drive& drive, TeachingNow& now) {
+Result<void> CatchUp(TeachSession& session, ScoutLink& link, Drive& drive) {
   auto step = session.CatchUp();
   if (!step || !step->finished) return {};
-  return PassOn(std::move(*step->finished), link, drive, now);
+  return PassOn(std::move(*step->finished), link, drive);
 }
 
 // The control loop: frame, step, hand over. Ends with the drive, a signal or an error.
@@ -153,6 +174,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
   if (teach.recorder.first_index != SegmentIndex(0)) teach.most_kept_bytes = 0;
   TeachSession session(teach);
   TeachingNow now;
+  Pace pace;
   const EarForTrouble ear(device, [&](const RobotDevice::Halt& halt) {
     now.stands = halt.what;
     link.Report(now);
@@ -167,13 +189,15 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
       break;
     }
     if (step->anew) result = BeginAnew(*step->anew, *observation, link, drive);
-    if (step->finished) result = PassOn(std::move(*step->finished), link, drive, now);
-    if (result) result = CatchUp(session, link, drive, now);
+    if (step->finished) result = PassOn(std::move(*step->finished), link, drive);
+    if (result) result = CatchUp(session, link, drive);
     TellDarkness(*step, drive);
     TellWeakness(*step, drive);
     TellReverse(*step, drive);
     ++drive.frames;
     now.features = step->features;
+    now.along_m = drive.handed_m + step->ahead_m;
+    now.speed_mps = pace.Measure(*observation);
     now.drive_progress = device.drive_progress();
     link.Report(now);
     if (options.glances != nullptr && options.glances->wanted()) {
@@ -193,13 +217,13 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
   }
   standstill.Stop();
   while (result && !link.failed() && session.catching_up()) {
-    result = CatchUp(session, link, drive, now);
+    result = CatchUp(session, link, drive);
   }
   TellMount(session, drive);
   auto last = session.Finish();
   drive.turned_rad = session.turned_rad();
   if (last && !link.failed()) {
-    auto handed = PassOn(std::move(*last), link, drive, now);
+    auto handed = PassOn(std::move(*last), link, drive);
     if (result) result = handed;
   }
   return result;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <set>
 
 #include "agent/teach/scout.h"
 #include "services/route/digest.h"
@@ -141,6 +142,34 @@ TEST_F(TeachByHandTest, TheRobotStandsWhenItsDriverFallsSilentAndTeachingGoesOn)
   const auto taught = Teach(false);
   ASSERT_TRUE(taught) << taught.error().message;
   EXPECT_GT(at_m, 1.0);
+}
+
+TEST_F(TeachByHandTest, HowFarAndHowFastIsToldOfEachMomentNotOfEachSegment) {
+  const auto listener = swarm_.Join(exchange::OperatorTopics());
+  const auto gives_up = steady_clock::now() + test::kLongEnough;
+  std::set<double> told_m;
+  bool moved = false;
+  bool stood = false;
+  std::uint32_t segments = 0;
+  device_.before_frame = [&](double along_m) {
+    for (const exchange::Message& message : listener->Take(milliseconds(0))) {
+      const auto* status = std::get_if<exchange::AgentStatus>(&message);
+      if (status == nullptr || status->mode != exchange::AgentMode::kTeaching) continue;
+      if (status->place) told_m.insert(status->place->along_m);
+      segments = status->segments;
+      moved |= status->speed_mps > 0.1;
+      // The segment that is under way was driven to here.
+      stood |= along_m >= 2.0 && status->speed_mps == 0.0 && status->place &&
+               status->place->along_m > along_m - 0.1;
+    }
+    if (along_m < 2.0) return Drive(0.6);
+    if (stood || steady_clock::now() > gives_up) hands_.Tell({.ended = true});
+  };
+  const auto taught = Teach(false);
+  ASSERT_TRUE(taught) << taught.error().message;
+  EXPECT_TRUE(moved);
+  EXPECT_TRUE(stood) << (told_m.empty() ? -1.0 : *told_m.rbegin());
+  EXPECT_GT(told_m.size(), segments + 1U) << "not by segments alone";
 }
 
 TEST_F(TeachByHandTest, WhoDrivesItIsToldWhatStandsInItsWay) {
