@@ -65,6 +65,8 @@ class Desk {
   // Its client is filled in. As fleet::SendMission: what is known of it first. kNotFound: neither
   // this console nor a server has ever heard of such a robot; `also_unheard` sends it all the same.
   [[nodiscard]] Result<mission::Report> Send(mission::Mission mission, bool also_unheard = false);
+  // As FleetState::Forget.
+  [[nodiscard]] Result<void> Forget(const AgentId& robot);
   // Passes on how a robot that teaches is to be driven, and waits for nothing.
   [[nodiscard]] Driving::Verdict Drive(const AgentId& robot, const Driving::Word& word) {
     return driving_.Hear(robot, word, Clock::now());

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "services/base/newest_map.h"
+#include "services/base/result.h"
 #include "services/exchange/messages.h"
 #include "services/fleet/robot_state.h"
 #include "services/http/metrics_text.h"
@@ -36,6 +37,8 @@ class FleetState {
   // A route that nobody tells of is asked for so often, so many at once.
   static constexpr std::chrono::milliseconds kAskForRouteEvery{10'000};
   static constexpr std::size_t kMostAskedFor = 8;
+  // Who stood, free, when it was heard last, and is not heard for so long, is listed no more.
+  static constexpr std::chrono::hours kGoneAfter{1};
   // A stop that was not answered is told again so often.
   static constexpr std::chrono::milliseconds kStopAgainEvery{500};
 
@@ -45,8 +48,11 @@ class FleetState {
   void Handle(const exchange::Message& message, Time now, std::int64_t unix_ms);
   // What this console itself sends: without a server nobody else tells its orders.
   void Sent(const mission::Mission& mission, std::int64_t unix_ms);
-  // Who has fallen silent meanwhile, and which routes robots are on.
+  // Who has fallen silent meanwhile, or is gone, and which routes robots are on.
   void Tick(Time now);
+  // A person wants a robot that is not heard listed no more; heard again, it is. kNotFound;
+  // kConflict: it is heard, or may have to be stopped yet.
+  [[nodiscard]] Result<void> Forget(const AgentId& robot, Time now);
   [[nodiscard]] bool Teaches(const AgentId& robot) const;
   // Whether it was heard, or said by what it does to be there; and all who were.
   [[nodiscard]] bool Knows(const AgentId& robot) const;
@@ -122,6 +128,7 @@ class FleetState {
   void On(const exchange::MissionReply& reply);
   void On(const exchange::CatalogReply& reply);
   [[nodiscard]] Latest LatestMissions() const;
+  void DropGone(Time now);
   [[nodiscard]] static Standing StandingOf(const Agent& agent, const mission::Record* latest);
   [[nodiscard]] nlohmann::ordered_json RobotOf(const Agent& agent,
                                                const mission::Record* latest) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "services/base/guarded.h"
 #include "services/base/unix_time.h"
@@ -116,6 +117,28 @@ class WhoErrand final : public ErrandFor<std::optional<Error>> {
 
   AgentId robot_;
   std::optional<Error> unknown_;
+};
+
+// That a robot is listed no more.
+class ForgetErrand final : public ErrandFor<std::monostate> {
+ public:
+  explicit ForgetErrand(AgentId robot) : robot_(std::move(robot)) {}
+
+  [[nodiscard]] std::vector<exchange::Message> Words() const override { return {}; }
+  void Hear(const exchange::Message& /*message*/) override {}
+  void Begin(FleetState& state, std::chrono::steady_clock::time_point now) override {
+    forgotten_ = state.Forget(robot_, now);
+  }
+  [[nodiscard]] bool IsOver(milliseconds /*since*/) const override { return true; }
+
+ private:
+  [[nodiscard]] Result<std::monostate> Outcome() const override {
+    if (!forgotten_) return tl::unexpected(forgotten_.error());
+    return std::monostate{};
+  }
+
+  AgentId robot_;
+  Result<void> forgotten_;
 };
 
 // One of servers, over when the first has answered.
@@ -261,6 +284,12 @@ Result<mission::Report> Desk::Send(mission::Mission mission, bool also_unheard) 
   mission.client = self_;
   return CarryOut(std::make_shared<SendErrand>(std::move(mission), options_.reply_within), false,
                   options_.reply_within);
+}
+
+Result<void> Desk::Forget(const AgentId& robot) {
+  const auto done = CarryOut(std::make_shared<ForgetErrand>(robot), false, milliseconds(0));
+  if (!done) return tl::unexpected(done.error());
+  return {};
 }
 
 Result<exchange::MissionReply> Desk::Missions(const mission::Query& query) {

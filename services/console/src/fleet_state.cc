@@ -214,7 +214,43 @@ void FleetState::Sent(const mission::Mission& mission, std::int64_t unix_ms) {
                            .changed_unix_ms = unix_ms};
 }
 
+Result<void> FleetState::Forget(const AgentId& robot, Time now) {
+  Tick(now);
+  const Agent* agent = agents_.Find(robot);
+  if (agent == nullptr || agent->status.role == AgentRole::kServer) {
+    return Fail(ErrorCode::kNotFound, "no robot '{}' is listed", robot.value());
+  }
+  if (!agent->silent && agent->status.mode != AgentMode::kStopped) {
+    return Fail(ErrorCode::kConflict, "{} is heard: who is there stays listed", robot.value());
+  }
+  if (agent->open_stop) {
+    return Fail(ErrorCode::kConflict,
+                "{} has not answered a stop, which is told again until it has: release it first",
+                robot.value());
+  }
+  agents_.Erase(robot);
+  return {};
+}
+
+void FleetState::DropGone(Time now) {
+  std::vector<AgentId> gone;
+  const Latest latest = LatestMissions();
+  for (const auto& [name, agent] : agents_) {
+    const AgentStatus& last = agent.status;
+    const bool stood = last.speed_mps == 0.0 && last.mode != AgentMode::kReplaying &&
+                       last.mode != AgentMode::kTeaching;
+    if (now < agent.heard_at + kGoneAfter || !stood || agent.open_stop) continue;
+    if (last.role == AgentRole::kServer) continue;
+    const auto mission = latest.find(name);
+    if (mission == latest.end() || mission::HasEnded(mission->second->last.state)) {
+      gone.push_back(name);
+    }
+  }
+  for (const AgentId& name : gone) agents_.Erase(name);
+}
+
 void FleetState::Tick(Time now) {
+  DropGone(now);
   const auto share = std::chrono::milliseconds(10) * static_cast<int>(agents_.size());
   std::set<route::RouteKey> used;
   for (auto& [name, agent] : agents_) {

@@ -55,6 +55,7 @@ constexpr Row kRows[] = {
     {"POST", "/api/robots/*/stop", Role::kOperate},
     {"POST", "/api/robots/*/release", Role::kOperate},
     {"POST", "/api/robots/*/end", Role::kOperate},
+    {"POST", "/api/robots/*/forget", Role::kOperate},
     {"POST", "/api/robots/*/drive", Role::kOperate},
     {"POST", "/api/robots/*/missions", Role::kOperate},
     {"POST", "/api/network/edits", Role::kOperate},

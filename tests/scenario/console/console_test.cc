@@ -112,6 +112,9 @@ TEST_F(ConsoleTest, WhatIsWrongIsSaidAndWhoFallsSilentStaysListed) {
   EXPECT_EQ(robot["heard"], false);
   EXPECT_EQ(robot["needs_person"], true) << "in the middle of a mission";
   EXPECT_TRUE(robot["last_heard_unix_ms"].is_number());
+  EXPECT_EQ(Post("/api/robots/robot9/forget").status, 404);
+  EXPECT_EQ(Post("/api/robots/robot1/forget").status, 200) << "a person knows where it is";
+  EXPECT_TRUE(WaitUntil([&] { return Robot1().empty(); }));
   server_->Signal(SIGTERM);
   (void)End(*server_);
   EXPECT_TRUE(WaitUntil([&] { return State()["servers"][0]["heard"] == false; }));

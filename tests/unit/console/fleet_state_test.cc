@@ -168,6 +168,41 @@ TEST_F(FleetStateTest, WhoIsSilentOrGoneStaysListed) {
   EXPECT_EQ(Robot()["state"], "driving");
 }
 
+TEST_F(FleetStateTest, WhoStoodFreeAndIsLongGoneIsListedNoMore) {
+  AgentStatus driving = Status("robot1", AgentMode::kReplaying);
+  driving.speed_mps = 0.4;
+  Hear(driving);
+  Hear(Status("robot2", AgentMode::kWaiting));
+  Hear(Report("trip", 1, State::kUnderWay));
+  AgentStatus on_mission = Status("robot3", AgentMode::kWaiting);
+  Hear(on_mission);
+  mission::Report waits = Report("later", 1, State::kUnderWay);
+  waits.agent = AgentId("robot3");
+  Hear(waits);
+  now_ += FleetState::kGoneAfter - seconds(1);
+  EXPECT_EQ(Robot("robot2")["state"], "offline");
+  now_ += seconds(1);
+  EXPECT_EQ(Robot("robot2"), json());
+  EXPECT_EQ(Robot()["state"], "offline") << "it may be moving";
+  EXPECT_EQ(Robot("robot3")["state"], "offline") << "somebody waits for it";
+  EXPECT_EQ(state_.MayMove(now_).size(), 2U);
+}
+
+TEST_F(FleetStateTest, APersonDismissesWhoIsNotHeardAndNobodyElse) {
+  Hear(Status("robot1", AgentMode::kReplaying));
+  EXPECT_EQ(state_.Forget(AgentId("robot2"), now_).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(state_.Forget(AgentId("robot1"), now_).error().code, ErrorCode::kConflict) << "heard";
+  now_ += seconds(10);
+  state_.KeepTelling(AgentId("robot1"), {.client = AgentId("desk")}, now_, 1234);
+  EXPECT_EQ(state_.Forget(AgentId("robot1"), now_).error().code, ErrorCode::kConflict)
+      << "it has not answered a stop";
+  state_.Release(AgentId("robot1"), now_);
+  EXPECT_TRUE(state_.Forget(AgentId("robot1"), now_));
+  EXPECT_EQ(Robot(), json());
+  Hear(Status("robot1", AgentMode::kReplaying));
+  EXPECT_EQ(Robot()["state"], "driving") << "it is back";
+}
+
 TEST_F(FleetStateTest, WhoHasNotEndedMayMoveHoweverLongItIsSilent) {
   AgentStatus status = Status("robot1", AgentMode::kReplaying);
   status.speed_mps = 0.4;

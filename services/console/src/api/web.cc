@@ -242,6 +242,12 @@ void Web::ServeOrders() {
       server_.Post(path, std::move(tell));
     }
   }
+  server_.Post("/api/robots/([A-Za-z0-9_.-]{1,64})/forget",
+               [this](const Request& request, Response& response) {
+                 const auto forgotten = desk_.Forget(AgentId(request.matches[1]));
+                 if (!forgotten) return Refuse(response, forgotten.error());
+                 Answer(response, 200, OneLine({{"forgotten", request.matches[1].str()}}));
+               });
   server_.PostWithAnyBody("/api/all/stop", [this](const Request& request, Response& response) {
     Tell(NowOrder::kStop, {NowWhom::kAll, ""}, request, response);
   });
