@@ -11,6 +11,7 @@
 #include "services/base/give_way.h"
 #include "services/base/unix_time.h"
 #include "services/console/src/guarded_in_log.h"
+#include "services/console/src/in_words.h"
 #include "services/fleet/draw.h"
 
 namespace trailcast::console {
@@ -30,16 +31,6 @@ constexpr std::size_t kMostLogBytes = 128U << 20U;
 constexpr milliseconds kOthersLook{2000};
 constexpr const char* kReader = "the thread that reads logs";
 constexpr const char* kUploaded = "the uploaded log";
-
-// What people are told has the log's own name, and no other of this machine.
-Error InWords(Error error, const fs::path& path, const std::string& name) {
-  const std::string known = path.string();
-  for (std::size_t at = 0; (at = error.message.find(known, at)) != std::string::npos;) {
-    error.message.replace(at, known.size(), name);
-    at += name.size();
-  }
-  return error;
-}
 
 bool Fits(const std::string& wanted, const std::string& is) {
   return wanted.empty() || wanted == is;

@@ -8,6 +8,7 @@
 #include "services/archive/route_file.h"
 #include "services/archive/route_file_writer.h"
 #include "services/console/src/guarded_in_log.h"
+#include "services/console/src/in_words.h"
 #include "services/exchange/route_exchange.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/routes/route_export.h"
@@ -129,9 +130,8 @@ Transfers::Progress Transfers::Deliver(const std::string& id) {
 Result<std::string> Transfers::DeliverFrom(Job& job, const fleet::TransferWatch& watch) {
   const auto file = archive::RouteFile::Open(job.path);
   if (!file) {
-    return Fail(file.error().code,
-                "this is no whole route file, as 'trailcast export' writes them: {}",
-                file.error().message);
+    return Fail(file.error().code, "this is no whole route file, as Download writes them: {}",
+                InWords(file.error(), job.path, "the file").message);
   }
   const route::RouteInfo& info = file->info();
   {

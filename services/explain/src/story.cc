@@ -117,7 +117,8 @@ std::string Events(const RunLog& log) {
 
 std::string WhoFollowedWhat(const RunLog& log) {
   return fmt::format(
-      "'{}' ({} segments, {} m, taught by {} with {}), followed by {} with {}, method {}",
+      "'{}' ({} segments, {} m as the run began, taught by {} with {}), followed by {} with {}, "
+      "method {}",
       Known(log, "route"), Known(log, "segments"), Known(log, "length_m"), Known(log, "scout"),
       Known(log, "scout_camera"), Known(log, "robot"), Known(log, "camera"), Known(log, "method"));
 }
