@@ -42,6 +42,9 @@ class Desk {
     std::chrono::milliseconds ask_every{30'000};   // for missions, while somebody looks: news of
                                                    // them are told unasked
     std::chrono::milliseconds looks_on{3000};      // who looked so lately
+    Alerts alerts{};                               // of before
+    // Given what is to be kept of them, on the desk's thread: it does not wait.
+    std::function<void(std::string)> keep_alerts{};
   };
   // Asked at once beyond what stops robots: more are refused.
   static constexpr std::size_t kMostErrands = 16;
@@ -49,6 +52,8 @@ class Desk {
   static constexpr std::size_t kMostLooks = 8;  // robots
   // The state is told at most so often.
   static constexpr std::chrono::milliseconds kNewsEvery{200};
+  // Whether somebody has to see to something is looked at so often, whoever looks.
+  static constexpr std::chrono::milliseconds kSeeToEvery{500};
 
   Desk(AgentId self, std::unique_ptr<exchange::RouteExchange> exchange, Options options);
   Desk(AgentId self, std::unique_ptr<exchange::RouteExchange> exchange)
@@ -65,7 +70,12 @@ class Desk {
   // Its client is filled in. As fleet::SendMission: what is known of it first. kNotFound: neither
   // this console nor a server has ever heard of such a robot; `also_unheard` sends it all the same.
   [[nodiscard]] Result<mission::Report> Send(mission::Mission mission, bool also_unheard = false);
-  // As FleetState::Forget.
+  // Alerts: all that are kept, as openapi.yaml has them, and whether they outlive the console.
+  [[nodiscard]] Result<nlohmann::ordered_json> AllAlerts();
+  [[nodiscard]] bool keeps_alerts() const { return options_.keep_alerts != nullptr; }
+  // As Alerts::Acknowledge.
+  [[nodiscard]] Result<void> Acknowledge(const std::string& alert, const std::string& by);
+  // As FleetState::Forget; alerts about it end.
   [[nodiscard]] Result<void> Forget(const AgentId& robot);
   // Passes on how a robot that teaches is to be driven, and waits for nothing.
   [[nodiscard]] Driving::Verdict Drive(const AgentId& robot, const Driving::Word& word) {
@@ -127,6 +137,8 @@ class Desk {
   void Hear(const exchange::Message& message, Clock::time_point now);
   [[nodiscard]] bool SomebodyLooks(Clock::time_point now);
   void AskServers(Clock::time_point now);
+  void SeeTo(Clock::time_point now);
+  void NoteAlerts(Clock::time_point now);
   void ShowNews(Clock::time_point now);
 
   const AgentId self_;
@@ -135,6 +147,9 @@ class Desk {
   // The thread's own.
   std::unique_ptr<exchange::RouteExchange> exchange_;
   FleetState state_;
+  Alerts alerts_;
+  std::uint64_t alerts_kept_ = 0;
+  Clock::time_point see_to_at_{};
   std::vector<std::shared_ptr<Errand>> errands_;
   Clock::time_point asked_at_{};
   Clock::time_point ask_at_{};

@@ -5,12 +5,14 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "services/base/newest_map.h"
 #include "services/base/result.h"
+#include "services/console/alerts.h"
 #include "services/exchange/messages.h"
 #include "services/fleet/robot_state.h"
 #include "services/http/metrics_text.h"
@@ -82,6 +84,15 @@ class FleetState {
   // Shows what openapi.yaml calls State, but for its time: robots by name, with the same members;
   // missions are null until it is known whether there are any.
   [[nodiscard]] nlohmann::ordered_json Shown() const;
+  // What somebody has to see to, and who is known. A battery that is low is said to be so until it
+  // is charged a little: `open` has that it was.
+  struct ToSeeTo {
+    std::vector<Cause> causes{};
+    std::set<std::string> subjects{};
+  };
+  // Returns whom Tick and Forget have taken off the list since the last call.
+  [[nodiscard]] std::vector<AgentId> TakeGone() { return std::exchange(gone_, {}); }
+  [[nodiscard]] ToSeeTo WhatToSeeTo(const Alerts& open) const;
   // Robots, servers and missions, for Prometheus.
   void Measure(http::MetricsText& text) const;
 
@@ -129,6 +140,8 @@ class FleetState {
   void On(const exchange::CatalogReply& reply);
   [[nodiscard]] Latest LatestMissions() const;
   void DropGone(Time now);
+  void AddCauses(const Agent& agent, const Standing& standing, const Alerts& open,
+                 std::vector<Cause>& causes) const;
   [[nodiscard]] static Standing StandingOf(const Agent& agent, const mission::Record* latest);
   [[nodiscard]] nlohmann::ordered_json RobotOf(const Agent& agent,
                                                const mission::Record* latest) const;
@@ -139,6 +152,7 @@ class FleetState {
   NewestMap<MissionName, mission::Record> missions_{kMostMissions};
   std::map<mission::State, std::uint64_t> became_;  // how often missions were seen to
   std::map<route::RouteKey, Route> routes_;
+  std::vector<AgentId> gone_;
   bool lacks_orders_ = false;
   bool missions_told_ = false;
   std::optional<std::uint64_t> asked_for_missions_{};

@@ -7,6 +7,7 @@
 #include <memory>
 #include <thread>
 
+#include "services/console/alert_file.h"
 #include "services/console/atlas.h"
 #include "services/console/desk.h"
 #include "services/console/runs.h"
@@ -44,6 +45,7 @@ struct WebOptions {
   bool behind_proxy = false;
   std::filesystem::path site;
   std::filesystem::path logs;
+  std::filesystem::path alerts;
 };
 
 bool IsLoopback(const std::string& host) {
@@ -111,7 +113,16 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
   auto peer = trailcast::fleet::JoinAsOperator(
       common, commands ? console::ConsoleTopics() : console::LookingTopics());
   if (!peer) return program::Complain(app, peer.error());
-  console::Desk desk(peer->self, std::move(peer->exchange));
+  std::unique_ptr<console::AlertFile> alerts;
+  console::Desk::Options desk_options;
+  if (!options.alerts.empty()) {
+    auto opened = console::AlertFile::Open(options.alerts);
+    if (!opened) return program::Complain(app, Wrap(opened.error(), "--alerts").value());
+    alerts = *std::move(opened);
+    desk_options.alerts = alerts->alerts();
+    desk_options.keep_alerts = [&alerts](std::string text) { alerts->Keep(std::move(text)); };
+  }
+  console::Desk desk(peer->self, std::move(peer->exchange), std::move(desk_options));
   console::Atlas atlas([&] {
     return trailcast::fleet::JoinAsOperator(common, trailcast::fleet::ExporterTopics(), 1);
   });
@@ -189,6 +200,10 @@ int Run(int argc, char** argv) {
                  "serve --logs'), as they are mounted or copied there; opened in the history")
       ->check(CLI::ExistingDirectory)
       ->envname("TRAILCAST_LOGS");
+  app.add_option("--alerts", options.alerts,
+                 "File in which alerts, and who has acknowledged them, outlive the console; made "
+                 "if missing")
+      ->envname("TRAILCAST_ALERTS");
   const console::UsersCommand users(app);
   if (const auto ended = program::Parse(app, argc, argv)) return *ended;
   return users.asked_for() ? users.Run() : Serve(app, common, options);

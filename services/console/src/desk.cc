@@ -119,26 +119,25 @@ class WhoErrand final : public ErrandFor<std::optional<Error>> {
   std::optional<Error> unknown_;
 };
 
-// That a robot is listed no more.
-class ForgetErrand final : public ErrandFor<std::monostate> {
+// Done at once, by the desk's thread, with what is the thread's own.
+template <typename Reply>
+class LocalErrand final : public ErrandFor<Reply> {
  public:
-  explicit ForgetErrand(AgentId robot) : robot_(std::move(robot)) {}
+  using Work = std::function<Result<Reply>(FleetState&, std::chrono::steady_clock::time_point)>;
+  explicit LocalErrand(Work work) : work_(std::move(work)) {}
 
   [[nodiscard]] std::vector<exchange::Message> Words() const override { return {}; }
   void Hear(const exchange::Message& /*message*/) override {}
   void Begin(FleetState& state, std::chrono::steady_clock::time_point now) override {
-    forgotten_ = state.Forget(robot_, now);
+    done_ = work_(state, now);
   }
   [[nodiscard]] bool IsOver(milliseconds /*since*/) const override { return true; }
 
  private:
-  [[nodiscard]] Result<std::monostate> Outcome() const override {
-    if (!forgotten_) return tl::unexpected(forgotten_.error());
-    return std::monostate{};
-  }
+  [[nodiscard]] Result<Reply> Outcome() const override { return *done_; }
 
-  AgentId robot_;
-  Result<void> forgotten_;
+  Work work_;
+  std::optional<Result<Reply>> done_;
 };
 
 // One of servers, over when the first has answered.
@@ -232,9 +231,10 @@ exchange::TopicUse LookingTopics() {
 
 Desk::Desk(AgentId self, std::unique_ptr<exchange::RouteExchange> exchange, Options options)
     : self_(std::move(self)),
-      options_(options),
+      options_(std::move(options)),
       exchange_(std::move(exchange)),
       state_(self_),
+      alerts_(options_.alerts),
       thread_([this] { Run(); }) {}
 
 Desk::~Desk() {
@@ -287,7 +287,40 @@ Result<mission::Report> Desk::Send(mission::Mission mission, bool also_unheard) 
 }
 
 Result<void> Desk::Forget(const AgentId& robot) {
-  const auto done = CarryOut(std::make_shared<ForgetErrand>(robot), false, milliseconds(0));
+  const auto done = CarryOut(
+      std::make_shared<LocalErrand<std::monostate>>(
+          [this, robot](FleetState& state, Clock::time_point now) -> Result<std::monostate> {
+            const auto forgotten = state.Forget(robot, now);
+            // Of one that was not heard since the console started there may be alerts of before.
+            const bool had_alerts = (forgotten || forgotten.error().code == ErrorCode::kNotFound) &&
+                                    alerts_.End(robot.value(), NowUnixMs());
+            if (!forgotten && !had_alerts) return tl::unexpected(forgotten.error());
+            return std::monostate{};
+          }),
+      false, milliseconds(0));
+  if (!done) return tl::unexpected(done.error());
+  return {};
+}
+
+Result<program::Json> Desk::AllAlerts() {
+  return CarryOut(
+      std::make_shared<LocalErrand<program::Json>>(
+          [this](FleetState& /*state*/, Clock::time_point /*now*/) -> Result<program::Json> {
+            return alerts_.AllShown();
+          }),
+      false, milliseconds(0));
+}
+
+Result<void> Desk::Acknowledge(const std::string& alert, const std::string& by) {
+  const auto done =
+      CarryOut(std::make_shared<LocalErrand<std::monostate>>(
+                   [this, alert, by](FleetState& /*state*/,
+                                     Clock::time_point /*now*/) -> Result<std::monostate> {
+                     const auto acknowledged = alerts_.Acknowledge(alert, by, NowUnixMs());
+                     if (!acknowledged) return tl::unexpected(acknowledged.error());
+                     return std::monostate{};
+                   }),
+               false, milliseconds(0));
   if (!done) return tl::unexpected(done.error());
   return {};
 }
@@ -420,6 +453,7 @@ void Desk::ServeUntilClosed() {
     const std::vector<exchange::Message> heard = exchange_->Take(kTakeWait);
     const auto now = Clock::now();
     for (const exchange::Message& message : heard) Hear(message, now);
+    SeeTo(now);
     ShowNews(now);
   }
 }
@@ -503,6 +537,24 @@ void Desk::AskServers(Clock::time_point now) {
       exchange::MissionRequest{.client = self_, .request = request, .query = latest});
 }
 
+// Whether somebody looks or not.
+void Desk::SeeTo(Clock::time_point now) {
+  if (now >= see_to_at_) {
+    state_.Tick(now);
+    NoteAlerts(now);
+  }
+  if (alerts_.changes() == alerts_kept_) return;
+  alerts_kept_ = alerts_.changes();
+  if (options_.keep_alerts) options_.keep_alerts(alerts_.Text());
+}
+
+void Desk::NoteAlerts(Clock::time_point now) {
+  see_to_at_ = now + kSeeToEvery;
+  const auto [causes, subjects] = state_.WhatToSeeTo(alerts_);
+  alerts_.Note(causes, subjects, NowUnixMs());
+  for (const AgentId& gone : state_.TakeGone()) (void)alerts_.End(gone.value(), NowUnixMs());
+}
+
 void Desk::ShowNews(Clock::time_point now) {
   if (now < show_at_) return;
   if (!SomebodyLooks(now)) {
@@ -512,6 +564,7 @@ void Desk::ShowNews(Clock::time_point now) {
   }
   show_at_ = now + kNewsEvery;
   state_.Tick(now);
+  NoteAlerts(now);  // so that they are about what is shown
   if (state_.lacks_missions()) ask_at_ = std::min(ask_at_, asked_at_ + kAskAgain);
   AskServers(now);
   for (const RouteId& route : state_.TakeLackingRoutes(now)) {
@@ -520,7 +573,9 @@ void Desk::ShowNews(Clock::time_point now) {
     revisions.page_size = kRevisionsAsked;
     (void)exchange_->Publish(exchange::CatalogRequest{self_, fleet::DrawNumber(), revisions});
   }
-  auto state = std::make_shared<const program::Json>(state_.Shown());
+  program::Json shown = state_.Shown();
+  shown["alerts"] = alerts_.OpenShown();
+  auto state = std::make_shared<const program::Json>(std::move(shown));
   {
     const std::scoped_lock lock(mutex_);
     if (news_ && *news_->state == *state) return;

@@ -229,6 +229,7 @@ Result<void> FleetState::Forget(const AgentId& robot, Time now) {
                 robot.value());
   }
   agents_.Erase(robot);
+  gone_.push_back(robot);
   return {};
 }
 
@@ -247,6 +248,7 @@ void FleetState::DropGone(Time now) {
     }
   }
   for (const AgentId& name : gone) agents_.Erase(name);
+  gone_.insert(gone_.end(), gone.begin(), gone.end());
 }
 
 void FleetState::Tick(Time now) {
@@ -433,8 +435,10 @@ std::string ChangeBody(const Json& from, const Json& state, std::int64_t now_uni
   }
   Json body = {
       {"now_unix_ms", now_unix_ms}, {"robots", std::move(robots)}, {"gone", std::move(gone)}};
-  for (const char* part : {"servers", "routes", "missions"}) {
-    if (from.at(part) != state.at(part)) body[part] = state.at(part);
+  for (const char* part : {"servers", "routes", "missions", "alerts"}) {
+    if (state.contains(part) && from.value(part, Json()) != state.at(part)) {
+      body[part] = state.at(part);
+    }
   }
   return program::OneLine(body);
 }

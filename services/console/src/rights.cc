@@ -25,6 +25,7 @@ constexpr Row kRows[] = {
     {"GET", "/api/me", Role::kLook},
     {"GET", "/api/state", Role::kLook},
     {"GET", "/api/events", Role::kLook},
+    {"GET", "/api/alerts", Role::kLook},
     {"GET", "/api/missions", Role::kLook},
     {"GET", "/api/robots/*/glance", Role::kLook},
     {"GET", "/api/commands", Role::kLook},
@@ -49,6 +50,7 @@ constexpr Row kRows[] = {
     {"GET", "/api/transfers/*/file", Role::kLook},
 
     {"POST", "/api/all/stop", Role::kOperate},
+    {"POST", "/api/alerts/*/acknowledge", Role::kOperate},
     {"POST", "/api/robots/*/pause", Role::kOperate},
     {"POST", "/api/robots/*/resume", Role::kOperate},
     {"POST", "/api/robots/*/cancel", Role::kOperate},

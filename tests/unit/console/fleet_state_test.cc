@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace trailcast::console {
@@ -396,6 +397,62 @@ TEST_F(FleetStateTest, AChangeIsWhatIsOtherThanBefore) {
   EXPECT_EQ(change["missions"].size(), 1U);
   EXPECT_FALSE(change.contains("servers"));
   EXPECT_EQ(json::parse(ChangeBody(before, nobody, 5))["gone"], json({"robot1", "robot2"}));
+}
+
+TEST_F(FleetStateTest, TellsWhatSomebodyHasToSeeToWhereAndWhy) {
+  Alerts alerts;
+  const auto to_see_to = [&] {
+    state_.Tick(now_);
+    const auto [causes, subjects] = state_.WhatToSeeTo(alerts);
+    alerts.Note(causes, subjects, 1000);
+    std::vector<std::string> kinds;
+    for (const Cause& cause : causes) kinds.push_back(cause.subject + " " + cause.kind);
+    std::sort(kinds.begin(), kinds.end());
+    return kinds;
+  };
+  AgentStatus status = Status("robot1", AgentMode::kReplaying);
+  status.route = "hall";
+  status.place = {{RouteId(std::string(32, 'a')), TeachingId(0x1a)}, 7.12};
+  status.battery_percent = 30;
+  Hear(status);
+  Hear(Status("server", AgentMode::kWaiting, "", AgentRole::kServer));
+  Hear(Report("trip", 1, State::kUnderWay));
+  EXPECT_THAT(to_see_to(), testing::IsEmpty());
+
+  status.mode = AgentMode::kWaiting;
+  status.hold = AgentHold::kPaused;
+  status.detail = "paused by anna";
+  Hear(status);
+  ASSERT_THAT(to_see_to(), testing::ElementsAre("robot1 held"));
+  const Cause held = state_.WhatToSeeTo(alerts).causes.front();
+  EXPECT_FALSE(held.alarm);
+  EXPECT_EQ(held.place, "7.1 m of hall");
+  EXPECT_THAT(held.reason, testing::HasSubstr("paused by anna"));
+
+  status.hold = AgentHold::kNone;
+  status.mode = AgentMode::kReplaying;
+  Hear(status);
+  EXPECT_THAT(to_see_to(), testing::IsEmpty()) << "it drives on";
+  now_ += seconds(10);
+  EXPECT_THAT(to_see_to(), testing::ElementsAre("robot1 offline", "server server-offline"));
+  Hear(status);
+  Hear(Status("server", AgentMode::kWaiting, "", AgentRole::kServer));
+  Hear(Report("trip", 2, State::kFailed, "LOST"));
+  ASSERT_THAT(to_see_to(), testing::ElementsAre("robot1 failed"));
+  EXPECT_THAT(state_.WhatToSeeTo(alerts).causes.front().reason, testing::HasSubstr("LOST"));
+
+  status.battery_percent = 19;
+  Hear(status);
+  EXPECT_THAT(to_see_to(), testing::ElementsAre("robot1 battery", "robot1 failed"));
+  status.battery_percent = 21;
+  Hear(status);
+  EXPECT_THAT(to_see_to(), testing::ElementsAre("robot1 battery", "robot1 failed"))
+      << "hardly charged";
+  status.battery_percent = 25;
+  Hear(status);
+  EXPECT_THAT(to_see_to(), testing::ElementsAre("robot1 failed"));
+  state_.KeepTelling(AgentId("robot1"), {.client = AgentId("desk")}, now_, 1234);
+  EXPECT_THAT(to_see_to(), testing::ElementsAre("robot1 failed", "robot1 not-stopped"));
 }
 
 TEST_F(FleetStateTest, StrangersNamesDoNotFillTheMemory) {

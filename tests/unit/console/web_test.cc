@@ -69,6 +69,50 @@ TEST_F(WebTest, ThePageComesWithWhatKeepsOthersOut) {
   EXPECT_EQ(Client().Get("/etc/passwd")->status, 404);
 }
 
+TEST_F(WebTest, WhatIsLongComesPackedToWhoUnpacksIt) {
+  for (const char* path : {"/page.js", "/page.css", "/api/openapi.yaml"}) {
+    httplib::Client client = Client();
+    const auto plain = client.Get(path, {{"Accept-Encoding", "identity"}});
+    ASSERT_TRUE(plain) << path;
+    EXPECT_FALSE(plain->has_header("Content-Encoding")) << path;
+    const auto unpacked = client.Get(path, {{"Accept-Encoding", "gzip"}});
+    ASSERT_TRUE(unpacked) << path;
+    EXPECT_EQ(unpacked->body, plain->body) << path;
+    client.set_decompress(false);
+    const auto packed = client.Get(path, {{"Accept-Encoding", "gzip"}});
+    ASSERT_TRUE(packed) << path;
+    EXPECT_EQ(packed->get_header_value("Content-Encoding"), "gzip") << path;
+    EXPECT_EQ(packed->get_header_value("Vary"), "Accept-Encoding") << path;
+    EXPECT_LT(2 * packed->body.size(), plain->body.size()) << path;
+  }
+}
+
+TEST_F(WebTest, AlertsAreListedAndAcknowledged) {
+  const auto robot = bus_.Open(program::WithAgents(exchange::OnDutyTopics()));
+  exchange::AgentStatus status;
+  status.agent = AgentId("robot1");
+  status.instance = 7;
+  status.role = exchange::AgentRole::kFollower;
+  status.mode = exchange::AgentMode::kFault;
+  status.detail = "its camera is gone";
+  const auto alerts = [&] {
+    (void)robot->Publish(status);
+    return json::parse(Client().Get("/api/alerts")->body)["alerts"];
+  };
+  ASSERT_TRUE(test::WaitUntil([&] { return alerts().size() == 1; }));
+  EXPECT_EQ(alerts()[0]["reason"], "Fault: its camera is gone");
+  EXPECT_EQ(json::parse(Client().Get("/api/alerts")->body)["kept"], false);
+  ASSERT_TRUE(test::WaitUntil([&] {
+    return json::parse(Client().Get("/api/state")->body)["alerts"].size() == 1;
+  })) << "it is there though nobody has looked before";
+  const std::string path = "/api/alerts/" + alerts()[0]["alert"].get<std::string>();
+  EXPECT_EQ(Client().Post(path + "/acknowledge", "{}", "application/json")->status, 200);
+  EXPECT_EQ(alerts()[0]["acknowledged_by"], "console");
+  EXPECT_EQ(Client().Post("/api/alerts/none/acknowledge", "{}", "application/json")->status, 404);
+  status.mode = exchange::AgentMode::kWaiting;
+  EXPECT_TRUE(test::WaitUntil([&] { return !alerts()[0]["ended_unix_ms"].is_null(); }));
+}
+
 TEST_F(WebTest, RefusesOtherHostsAndOtherPages) {
   const auto get = [&](const char* host) { return Client().Get("/api/state", {{"Host", host}}); };
   EXPECT_EQ(get("evil.example")->status, 421);

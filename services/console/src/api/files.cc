@@ -27,6 +27,9 @@ TRAILCAST_EMBED(js, "page.js");
 TRAILCAST_EMBED(css, "page.css");
 TRAILCAST_EMBED(icon, "icon.svg");
 TRAILCAST_EMBED(openapi, "openapi.yaml");
+TRAILCAST_EMBED(js_gz, "page.js.gz");
+TRAILCAST_EMBED(css_gz, "page.css.gz");
+TRAILCAST_EMBED(openapi_gz, "openapi.yaml.gz");
 
 namespace trailcast::console {
 namespace {
@@ -40,20 +43,30 @@ std::string TagOf(std::string_view bytes) {
   return fmt::format("\"{:016x}\"", hash);
 }
 
-File MakeFile(const char* path, const char* type, const char* begin, const char* end) {
-  const std::string_view bytes(begin, static_cast<std::size_t>(end - begin));
-  return {path, type, bytes, TagOf(bytes)};
+std::string_view Between(const char* begin, const char* end) {
+  return {begin, static_cast<std::size_t>(end - begin)};
+}
+
+// `packed`: the same by gzip; empty where that is hardly shorter.
+File MakeFile(const char* path, const char* type, std::string_view bytes,
+              std::string_view packed = {}) {
+  return {path, type, bytes, packed, TagOf(bytes)};
 }
 
 }  // namespace
 
 std::span<const File> Files() {
   static const std::array kFiles{
-      MakeFile("/", "text/html; charset=utf-8", trailcast_html, trailcast_html_end),
-      MakeFile("/page.js", "text/javascript; charset=utf-8", trailcast_js, trailcast_js_end),
-      MakeFile("/page.css", "text/css; charset=utf-8", trailcast_css, trailcast_css_end),
-      MakeFile("/icon.svg", "image/svg+xml", trailcast_icon, trailcast_icon_end),
-      MakeFile("/api/openapi.yaml", "application/yaml", trailcast_openapi, trailcast_openapi_end)};
+      MakeFile("/", "text/html; charset=utf-8", Between(trailcast_html, trailcast_html_end)),
+      MakeFile("/page.js", "text/javascript; charset=utf-8",
+               Between(trailcast_js, trailcast_js_end),
+               Between(trailcast_js_gz, trailcast_js_gz_end)),
+      MakeFile("/page.css", "text/css; charset=utf-8", Between(trailcast_css, trailcast_css_end),
+               Between(trailcast_css_gz, trailcast_css_gz_end)),
+      MakeFile("/icon.svg", "image/svg+xml", Between(trailcast_icon, trailcast_icon_end)),
+      MakeFile("/api/openapi.yaml", "application/yaml",
+               Between(trailcast_openapi, trailcast_openapi_end),
+               Between(trailcast_openapi_gz, trailcast_openapi_gz_end))};
   return kFiles;
 }
 

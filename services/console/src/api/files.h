@@ -11,7 +11,8 @@ struct File {
   const char* path;  // as it is asked for
   const char* type;
   std::string_view bytes;
-  std::string tag;  // other bytes have another; in quotes, as HTTP has it
+  std::string_view packed{};  // by gzip; empty: it is not
+  std::string tag;            // other bytes have another; in quotes, as HTTP has it
 };
 [[nodiscard]] std::span<const File> Files();
 

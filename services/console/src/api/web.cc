@@ -13,6 +13,7 @@
 #include "services/console/json.h"
 #include "services/console/rights.h"
 #include "services/console/runs.h"
+#include "services/console/src/api/alerts_api.h"
 #include "services/console/src/api/answers.h"
 #include "services/console/src/api/driving_api.h"
 #include "services/console/src/api/files.h"
@@ -39,7 +40,7 @@ using httplib::Response;
 using program::OneLine;
 
 // How soon a stream notices that its page is gone.
-constexpr std::chrono::milliseconds kLook{1000};
+constexpr std::chrono::milliseconds kNotices{1000};
 constexpr std::size_t kMostBody = 64U << 10U;
 
 constexpr std::array kOrders{NowOrder::kPause, NowOrder::kResume,  NowOrder::kCancel,
@@ -129,6 +130,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   ServeOrders();
   ServeMissions();
   ServeMetrics();
+  ServeAlerts(server_, desk_, access_);
   ServeRoutes(server_, desk_);
   ServeMap(server_, atlas, site);
   ServeNetwork(server_, desk_, network_, access_);
@@ -167,15 +169,21 @@ void Web::ServeFiles() {
     server_.Get(file.path, [&file](const Request& request, Response& response) {
       response.set_header("ETag", file.tag);
       response.set_header("Cache-Control", "no-cache");
+      response.set_header("Vary", "Accept-Encoding");
       if (request.get_header_value("If-None-Match") == file.tag) {
         response.status = 304;
         return;
       }
+      const bool packed =
+          !file.packed.empty() &&
+          request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
+      if (packed) response.set_header("Content-Encoding", "gzip");
       // Not by set_content, which compresses anew for each.
+      const std::string_view bytes = packed ? file.packed : file.bytes;
       response.set_content_provider(
-          file.bytes.size(), file.type,
-          [&file](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-            return sink.write(file.bytes.data() + offset, length);
+          bytes.size(), file.type,
+          [bytes](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+            return sink.write(bytes.data() + offset, length);
           });
     });
   }
@@ -183,7 +191,7 @@ void Web::ServeFiles() {
 
 void Web::ServeState() {
   server_.Get("/api/state", [this](const Request&, Response& response) {
-    const auto news = desk_.See(0, kLook);
+    const auto news = desk_.See(0, kNotices);
     if (!news) return Refuse(response, 503, "nothing is known yet");
     Answer(response, 200, StateBody(*news->state, NowUnixMs()));
   });
@@ -208,7 +216,7 @@ void Web::Stream(const Request& request, Response& response) {
   response.set_content_provider(
       "text/event-stream", [this, seat, still_in = access_.StillIn(request), told = Told{}](
                                std::size_t, httplib::DataSink& sink) mutable {
-        const auto news = desk_.See(told.news ? told.news->number : 0, kLook);
+        const auto news = desk_.See(told.news ? told.news->number : 0, kNotices);
         if (desk_.closed() || !sink.is_writable() || !still_in()) return false;
         std::string text;
         if (news && told.news) {

@@ -105,7 +105,8 @@ Result<void> DemoFleet::StartConsole(const std::filesystem::path& programs,
   everybody.discovery = "mesh";  // as is usual for it
   for (std::string& word : NetworkWords(everybody, "console")) words.push_back(std::move(word));
   words.insert(words.end(),
-               {"--http-port", std::to_string(port), "--logs", (folder / kLogs).string()});
+               {"--http-port", std::to_string(port), "--logs", (folder / kLogs).string(),
+                "--alerts", (folder / "alerts.json").string()});
   auto console = ChildProcess::Start(words, folder / "console.log");
   if (!console) return tl::unexpected(console.error());
   console_.push_back(std::move(*console));
