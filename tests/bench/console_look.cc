@@ -268,7 +268,7 @@ class Look {
     browser_ = *std::move(browser);
     browser_->Open("about:blank");
     Frames("an empty page");
-    for (const std::string page : {"fleet", "map", "routes", "history"}) {
+    for (const std::string page : {"fleet", "routes", "history"}) {
       browser_->Open("about:blank");
       browser_->Open(Url(page));
       (void)browser_->Run(fmt::format("bench.watch('{}', {})", page, options_.robots));
@@ -281,7 +281,7 @@ class Look {
       Frames(page, true);
       browser_->Screenshot(options_.folder / (page + ".png"));
     }
-    for (const std::string page : {"fleet", "map", "routes", "history", "fleet"}) {
+    for (const std::string page : {"fleet", "routes", "history", "fleet"}) {
       (void)browser_->Run(fmt::format("bench.go('{}', {})", page, options_.robots));
       fmt::print("to {}: {:.0f} ms\n", page, Shown());
     }

@@ -6,8 +6,7 @@ namespace trailcast::bench {
 inline constexpr const char* kBenchScript = R"js(
 window.bench = (() => {
   const shows = {
-    fleet: (n) => document.querySelectorAll('.robots > article').length >= n,
-    map: () => document.querySelector('.plan path.course') !== null,
+    fleet: (n) => document.querySelectorAll('.robot-row').length >= n,
     routes: () => document.querySelectorAll('.routes tbody tr').length > 0,
     history: () => document.querySelectorAll('.history tbody tr').length > 0,
   };
@@ -71,9 +70,11 @@ window.bench = (() => {
         frames.push(now - last);
         last = now;
         if (scrolls) {
-          const before = window.scrollY;
-          window.scrollBy({ top: step, behavior: 'instant' });
-          if (window.scrollY === before) step = -step;
+          const rows = document.querySelector('.pane.robots');
+          const pane = rows && rows.scrollHeight > rows.clientHeight ? rows : document.scrollingElement;
+          const before = pane.scrollTop;
+          pane.scrollBy({ top: step, behavior: 'instant' });
+          if (pane.scrollTop === before) step = -step;
         }
         if (counts) requestAnimationFrame(frame);
       };

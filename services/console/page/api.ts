@@ -75,8 +75,26 @@ export type Server = {
   detail: string;
 };
 
+// What somebody has to see to; it ends by itself once its cause has.
+export type Alert = {
+  alert: string;
+  kind: string;
+  severity: 'alarm' | 'warning';
+  robot: string | null;
+  server: string | null;
+  reason: string;
+  place: string;
+  action: string;
+  known: boolean;  // false: it is of before the console started, and nothing was heard of it since
+  since_unix_ms: number;
+  acknowledged_by: string | null;
+  acknowledged_unix_ms: number | null;
+  ended_unix_ms: number | null;
+};
+
 export type Fleet = {
   now_unix_ms: number;
+  alerts: Alert[];
   robots: Robot[];
   servers: Server[];
   routes: Route[];
@@ -98,12 +116,17 @@ export type Answer = { ok: boolean; text: string };
 
 const kPatience_ms = 12000;
 
+// Errors that servers word for the command line: what is to be typed there is of no use here.
+export const withoutCommands = (text: string) => text.replace(/(?:[:;,] |\. )[^.:;]*'trailcast [\s\S]*$/, '');
+
 async function ask(path: string, request: RequestInit, patience_ms = kPatience_ms): Promise<{ status: number; json: any }> {
   const giveUp = new AbortController();
   const timer = window.setTimeout(() => giveUp.abort(), patience_ms);
   try {
     const reply = await fetch(path, { ...request, signal: giveUp.signal });
-    return { status: reply.status, json: await reply.json() };
+    const json = await reply.json();
+    if (typeof json.error === 'string') json.error = withoutCommands(json.error);
+    return { status: reply.status, json };
   } finally {
     window.clearTimeout(timer);
   }
@@ -171,8 +194,38 @@ export async function drive(
   }
 }
 
+export async function acknowledge(alert: string): Promise<Answer> {
+  try {
+    const { json } = await post(`/api/alerts/${alert}/acknowledge`, {});
+    return json.error ? { ok: false, text: json.error } : { ok: true, text: '' };
+  } catch {
+    return { ok: false, text: 'The console does not answer.' };
+  }
+}
+
+// List a robot no more that is not heard.
+export async function forget(robot: string): Promise<Answer> {
+  try {
+    const { json } = await post(`/api/robots/${robot}/forget`, {});
+    return json.error ? { ok: false, text: json.error } : { ok: true, text: `${robot} is listed again once it is heard.` };
+  } catch {
+    return { ok: false, text: 'The console does not answer.' };
+  }
+}
+
 // With what it says of each robot, which may change.
 export type StopAnswer = Answer & { robots: { robot: string; answered: boolean; obeys: boolean }[] };
+
+export async function stopOne(robot: string): Promise<StopAnswer> {
+  try {
+    const { status, json } = await post(`/api/robots/${robot}/stop`, {});
+    if (json.error) return { ok: false, text: `${robot}: ${json.error}`, robots: [] };
+    const said = !json.answered ? 'did not answer: it may not have heard' : json.obeys ? json.detail : `does not obey: ${json.detail}`;
+    return { ok: status === 200, text: `${robot}: ${said}`, robots: [json] };
+  } catch {
+    return { ...unreachable, robots: [] };
+  }
+}
 
 export async function stopAll(): Promise<StopAnswer> {
   try {
@@ -216,13 +269,16 @@ export type Changes = {
   history: { kept_since_unix_ms: number; total: number; changes: RouteChange[] };
 };
 
-export type RouteAction = 'activate' | 'rollback' | 'retire' | 'delete';
+export type RouteAction = 'activate' | 'rollback' | 'retire' | 'delete' | 'rename' | 'tag' | 'untag' | 'describe';
 
-export async function editRoute(route: string, action: RouteAction, revision: number): Promise<Answer> {
+export async function editRoute(
+  route: string, action: RouteAction, of: { revision?: number; text?: string; tags?: string[] } = {},
+): Promise<Answer> {
   try {
-    const { json } = await post(`/api/routes/${route}/edits`, { action, revision });
+    const { json } = await post(`/api/routes/${route}/edits`, { action, ...of });
     if (json.error) return { ok: false, text: json.error };
-    const changed = (json.changed as Route[]).map((each) => `revision ${each.revision} is ${each.state}`);
+    const isState = ['activate', 'rollback', 'retire', 'delete'].includes(action);
+    const changed = (json.changed as Route[]).map((each) => `revision ${each.revision} is ${isState ? each.state : 'changed'}`);
     return { ok: true, text: changed.length > 0 ? `Done: ${changed.join(', ')}.` : 'Nothing to change: it is so already.' };
   } catch {
     return { ok: false, text: 'The console does not answer: it may have been changed, or not.' };

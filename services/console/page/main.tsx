@@ -1,68 +1,25 @@
-import { useEffect, useState } from 'react';
+import { useCallback, useEffect, useRef, useState } from 'react';
 import { createRoot } from 'react-dom/client';
-import { stopAll, type Fleet, type Robot, type StopAnswer } from './api';
+import { AlertBar, unacknowledged } from './alerts/alerts';
+import { stopAll, stopOne, tell, type Order, type Robot, type StopAnswer } from './api';
 import { remember } from './doubts';
 import { age, useFleet } from './fleet';
-import { History } from './runs/history';
+import { Home, useChosen } from './home/home';
+import { Keys } from './keys';
 import { Doors, OnlyLooks, WhoIsIn } from './login';
-import { MapPage } from './map/map';
+import { Lost } from './lost';
 import { useMay } from './me';
-import { Missions } from './missions';
 import { NetworkPage } from './network/network';
 import { Pages, usePage } from './pages';
-import { RobotCard } from './robot/robot';
+import { Cameras } from './robot/cameras';
+import { RobotPage } from './robot/page';
+import { labels } from './robot/robot';
+import { mayMove } from './robot/state';
+import { trace } from './robot/trace';
 import { Routes } from './routes/routes';
-import { Badge } from './robot/state';
-import { Lines } from './robot/strip';
-import { Lost } from './lost';
+import { History } from './runs/history';
 import { StopButton } from './stop';
-
-function Attention({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
-  const needing = robots.filter((robot) => robot.needs_person);
-  if (needing.length === 0) return null;
-  return (
-    <section className="attention" aria-label="Needs attention">
-      <h2>Needs attention</h2>
-      <ul>
-        {needing.map((robot) => (
-          <li key={robot.name}>
-            <a href={`#robot-${robot.name}`}>{robot.name}</a> <Badge state={robot.state} />{' '}
-            {robot.last_heard_unix_ms === null ? robot.detail : `last seen ${age(now_ms - robot.last_heard_unix_ms)} ago`}
-            {robot.last_heard_unix_ms !== null && robot.mission && `, in the middle of its mission '${robot.mission.orders || robot.mission.mission}'`}
-          </li>
-        ))}
-      </ul>
-    </section>
-  );
-}
-
-function Robots({ fleet, settled, lost_ms, now_ms }: {
-  fleet: Fleet | null;
-  settled: boolean;
-  lost_ms: number | null;
-  now_ms: number;
-}) {
-  const robots = fleet?.robots ?? [];
-  return (
-    <>
-      <Attention robots={robots} now_ms={now_ms} />
-      <Lines robots={robots} />
-      <section aria-label="Robots" className="robots">
-        {!settled && robots.length === 0 && <p className="note">Searching for robots …</p>}
-        {settled && robots.length === 0 && (
-          <p className="note">No robot is heard. One that is on duty (<code>trailcast-agent serve</code>) shows up here.</p>
-        )}
-        {robots.map((robot) => (
-          <RobotCard key={robot.name} robot={robot} lost_ms={lost_ms} now_ms={robot.heard && lost_ms === null ? 0 : now_ms} />
-        ))}
-      </section>
-      <section aria-label="Missions">
-        <h2>Missions</h2>
-        <Missions missions={fleet?.missions ?? null} now_ms={now_ms} />
-      </section>
-    </>
-  );
-}
+import { ThemeChoice } from './theme';
 
 // Who was told to stop and has not answered stays in view until it has.
 function NotStopped({ robots, lost, now_ms }: { robots: Robot[]; lost: boolean; now_ms: number }) {
@@ -78,7 +35,7 @@ function NotStopped({ robots, lost, now_ms }: { robots: Robot[]; lost: boolean; 
       ⚠ Not stopped:{' '}
       {open.map((robot, i) => (
         <span key={robot.name}>
-          {i > 0 && '; '}<a href={`#robot-${robot.name}`}>{robot.name}</a> ({seen(robot)})
+          {i > 0 && '; '}<a href={`#fleet/${robot.name}`}>{robot.name}</a> ({seen(robot)})
         </span>
       ))}
       . It does not answer and may be moving: use its red button.
@@ -89,6 +46,8 @@ function NotStopped({ robots, lost, now_ms }: { robots: Robot[]; lost: boolean; 
 
 // Robots take so long to show what they have answered.
 const kShown_ms = 2000;
+// Of what is about no robot's stop.
+const kRead_ms = 15000;
 
 // What was answered, for as long as the robots are so.
 function useStopAnswer(robots: Robot[], lost: boolean, now_ms: number) {
@@ -96,6 +55,7 @@ function useStopAnswer(robots: Robot[], lost: boolean, now_ms: number) {
   const [at_ms, setAt] = useState(0);
   useEffect(() => {
     if (lost && answer?.ok) setAnswer(null);
+    if (answer?.ok && answer.robots.length === 0 && Date.now() > at_ms + kRead_ms) setAnswer(null);
     if (!answer || answer.robots.length === 0 || Date.now() < at_ms + kShown_ms) return;
     const holds = answer.robots.every(({ robot, answered, obeys }) => {
       const is = robots.find((each) => each.name === robot);
@@ -115,23 +75,55 @@ const kStep_ms = 10000;
 
 function Page() {
   const { fleet, settled, lost, now_ms, heard_ms } = useFleet();
-  const { answer, say } = useStopAnswer(fleet?.robots ?? [], lost, now_ms);
+  const robots = fleet?.robots ?? [];
+  const alerts = fleet?.alerts ?? [];
+  const { answer, say } = useStopAnswer(robots, lost, now_ms);
   const { page, open } = usePage();
   const mayOperate = useMay('operate');
-  useEffect(() => remember(fleet?.robots ?? []), [fleet]);
+  const pinned = useRef<HTMLDivElement>(null);
+  // What is brought into view lies below what is pinned, however high that is.
+  useEffect(() => {
+    const rule = new ResizeObserver(() =>
+      document.documentElement.style.setProperty('--pinned', `${pinned.current!.offsetHeight}px`));
+    rule.observe(pinned.current!);
+    return () => rule.disconnect();
+  }, []);
+  useEffect(() => {
+    remember(fleet?.robots ?? []);
+    trace(fleet?.robots ?? []);
+  }, [fleet]);
+  const told = unacknowledged(alerts);
+  const shown = page === 'robot' ? open : { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', history: 'History' }[page];
+  useEffect(() => {
+    document.title = `${lost ? '⚠ Connection lost' : `${told > 0 ? `(${told}) ` : ''}${shown}`} – Trailcast`;
+  }, [told, lost, shown]);
   const servers = fleet?.servers ?? [];
-  const stop = async () => {
+  const lost_ms = lost ? heard_ms : null;
+  const onStopAll = useCallback(async () => {
     say({ ok: true, text: 'Sending Stop to all robots …', robots: [] });
     say(await stopAll());
-  };
+  }, []);
+  const onStop = useCallback(async (robot: string) => {
+    say({ ok: true, text: `Sending Stop to ${robot} …`, robots: [] });
+    say(await stopOne(robot));
+  }, []);
+  const onTell = useCallback(async (robot: string, order: Order) => {
+    if (order === 'stop') return onStop(robot);
+    say({ ok: true, text: `Sending ${labels[order]} to ${robot} …`, robots: [] });
+    const said = await tell(robot, order);
+    say({ ...said, text: `${robot}: ${said.text}`, robots: [] });
+  }, []);
+  const chosen = useChosen(robots, page === 'fleet' || page === 'robot' ? open : '');
   return (
     <Lost.Provider value={lost}>
-      <div className="pinned">
+      <div className="pinned" ref={pinned}>
         <header className="top">
           <h1>Trailcast</h1>
           <Pages page={page} />
+          <ThemeChoice />
+          <Keys robots={robots} chosen={page === 'fleet' || page === 'robot' ? chosen?.name ?? '' : ''} mayOperate={mayOperate} onStop={onStop} onStopAll={onStopAll} onTell={onTell} />
           <WhoIsIn />
-          {mayOperate && <StopButton onClick={stop} />}
+          {mayOperate && <StopButton moves={lost || robots.some(mayMove)} onClick={onStopAll} />}
         </header>
         {lost && (
           <p className="banner" role="alert">
@@ -140,11 +132,11 @@ function Page() {
               : 'The console does not answer, or too many pages are open. This page tries again.'}
           </p>
         )}
-        <NotStopped robots={fleet?.robots ?? []} lost={lost} now_ms={now_ms} />
+        <NotStopped robots={robots} lost={lost} now_ms={now_ms} />
+        <p className={answer && !answer.ok ? 'answer top-answer bad' : 'answer top-answer'} role="status">
+          {answer && (answer.ok ? '' : '⚠ ') + answer.text}
+        </p>
       </div>
-      <p className={answer && !answer.ok ? 'answer top-answer bad' : 'answer top-answer'} role="status">
-        {answer && (answer.ok ? '' : '⚠ ') + answer.text}
-      </p>
       <OnlyLooks />
       {settled && !lost && !servers.some((server) => server.heard) && (
         <p className="banner" role="alert">
@@ -152,10 +144,13 @@ function Page() {
           direct reach hear this console.
         </p>
       )}
-      <main className={lost ? 'stale' : ''}>
-        {page === 'fleet' && <Robots fleet={fleet} settled={settled} lost_ms={lost ? heard_ms : null} now_ms={now_ms} />}
-        {page === 'map' && <MapPage robots={fleet?.robots ?? []} routes={fleet?.routes ?? []} settled={settled} />}
-        {page === 'network' && <NetworkPage robots={fleet?.robots ?? []} live={fleet?.routes ?? []} />}
+      <AlertBar alerts={alerts} now_ms={now_ms}
+        told={robots.filter((robot) => robot.unanswered_stop_unix_ms !== null).map((robot) => robot.name)} />
+      <main className={`${page}${lost ? ' stale' : ''}`}>
+        {page === 'fleet' && <Home fleet={fleet} open={open} chosen={chosen} settled={settled} lost_ms={lost_ms} now_ms={now_ms} onStop={onStop} />}
+        {page === 'robot' && <RobotPage key={open} fleet={fleet} name={open} settled={settled} lost_ms={lost_ms} now_ms={now_ms} />}
+        {page === 'cameras' && <Cameras robots={robots} settled={settled} onStop={onStop} />}
+        {page === 'network' && <NetworkPage robots={robots} live={fleet?.routes ?? []} />}
         {page === 'routes' && <Routes open={open} now_ms={now_ms - now_ms % kStep_ms} />}
         {page === 'history' && <History open={open} now_ms={now_ms} />}
       </main>

@@ -1,13 +1,14 @@
 import { useEffect, useState } from 'react';
 
 // What stands behind the address's #: "#routes", and "#routes/.." for what is open on that page.
-const pages = { fleet: 'Fleet', map: 'Map', network: 'Network', routes: 'Routes', history: 'History' };
+const pages = { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', history: 'History' };
 
-export type PageName = keyof typeof pages;
+// A robot's own page has no place in the list.
+export type PageName = keyof typeof pages | 'robot';
 
 function here(): { page: PageName; open: string } {
   const [name, open = ''] = window.location.hash.slice(1).split('/');
-  return { page: name in pages ? (name as PageName) : 'fleet', open };
+  return { page: name in pages || (name === 'robot' && open) ? (name as PageName) : 'fleet', open };
 }
 
 export function usePage(): { page: PageName; open: string } {
@@ -24,7 +25,7 @@ export function Pages({ page }: { page: PageName }) {
   return (
     <nav aria-label="Pages">
       {Object.entries(pages).map(([name, label]) => (
-        <a key={name} href={`#${name}`} aria-current={name === page ? 'page' : undefined}>{label}</a>
+        <a key={name} href={`#${name}`} aria-current={name === page || (name === 'fleet' && page === 'robot') ? 'page' : undefined}>{label}</a>
       ))}
     </nav>
   );

@@ -65,7 +65,6 @@ TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
 
   ASSERT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall speed 0.25"}}).status,
             200);
-  ASSERT_TRUE(browser.WaitForText("Active routes")) << browser.Text() << agent_->output();
   ASSERT_TRUE(WaitUntil([&] {
     return browser.Run("return document.querySelectorAll('.lines .cells').length") > json(0);
   })) << browser.Text()
@@ -83,7 +82,7 @@ TEST_F(ConsoleMapTest, ARobotIsSeenOnItsLineOnItsShapeAndOnTheSite) {
   EXPECT_NEAR(shape["points"]["x_m"].back().get<double>(), 3.5, 0.3);
   EXPECT_EQ(shape["closing"], nullptr);
 
-  ASSERT_TRUE(browser.Click("//nav//a[contains(., 'Map')]"));
+  ASSERT_TRUE(browser.Click("//label[contains(., 'Shape')]"));
   ASSERT_TRUE(browser.WaitForText("Odometry trace (may drift)")) << browser.Text();
   ASSERT_TRUE(WaitUntil([&] { return DrawnAt(browser, ".plan") > 0.0; })) << browser.Text();
   browser.Screenshot(Shot("phone-shape"));
@@ -135,8 +134,11 @@ TEST_F(ConsoleMapTest, OfARouteThatIsNotKnownYetHowFarARobotIsIsSeen) {
   browser.Look(1280, 800);
   browser.Open(Page());
   ASSERT_TRUE(WaitUntil([&] { return DrawnAt(browser, ".lines") > 0.0; })) << browser.Text();
-  const json line = browser.Run("return document.querySelector('.lines .line').clientWidth");
-  EXPECT_LT(DrawnAt(browser, ".lines"), 0.6 * line.get<double>()) << State().dump(2);
+  const json line = browser.Run(
+      "const line = document.querySelector('.lines .line').getBoundingClientRect();"
+      "return [line.left, line.width]");
+  EXPECT_LT(DrawnAt(browser, ".lines"), line[0].get<double>() + 0.6 * line[1].get<double>())
+      << State().dump(2);
   EXPECT_EQ(Robot1()["length_m"], json()) << "it became known meanwhile";
 }
 

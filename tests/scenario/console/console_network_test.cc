@@ -8,6 +8,7 @@ namespace trailcast::test {
 namespace {
 
 using nlohmann::json;
+using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
@@ -108,7 +109,13 @@ TEST_F(ConsoleNetworkTest, RoutesAreJoinedClosedAndARobotIsSentToAPlaceUponThem)
       << browser.Text();
 
   ASSERT_TRUE(browser.Click(Mode("Send a robot")));
-  ASSERT_TRUE(browser.Type(Field("To"), "bay"));
+  ASSERT_TRUE(browser.Type(Field("To"), "den"));
+  ASSERT_TRUE(browser.Click(Button("Show the path")));
+  ASSERT_TRUE(browser.WaitForText("no place is called 'den'")) << browser.Text();
+  EXPECT_THAT(browser.Text(), Not(HasSubstr("'trailcast"))) << "commands are of no use here";
+  ASSERT_TRUE(browser.Type(Field("To"),
+                           "\xEE\x80\x83\xEE\x80\x83\xEE\x80\x83"
+                           "bay"));  // Backspace
   ASSERT_TRUE(browser.Type(Field("From"), "hall@0"));
   ASSERT_TRUE(browser.Click(Button("Show the path")));
   ASSERT_TRUE(browser.WaitForText("office 1.55..1.6")) << "why not: " << browser.Text();

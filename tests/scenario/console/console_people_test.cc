@@ -15,6 +15,7 @@ using std::chrono::steady_clock;
 using testing::Each;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 class ConsolePeopleTest : public ConsoleUsersTest {
  protected:
@@ -56,24 +57,33 @@ class ConsolePeopleTest : public ConsoleUsersTest {
     browser->Open("https://localhost:" + std::to_string(port_) + "/");
     EXPECT_TRUE(LogInPage(*browser, user)) << browser->Text();
     for (const char* robot : kRobots) {
-      EXPECT_TRUE(WaitForCard(*browser, robot, "Available")) << browser->Text();
+      EXPECT_TRUE(WaitForRow(*browser, robot, "Available")) << browser->Text();
     }
     return browser;
   }
   static std::string Card(const std::string& robot) {
     return "//article[@aria-label='" + robot + "']";
   }
+  static bool WaitForRow(Browser& browser, const std::string& robot, const std::string& text) {
+    return WaitForTextIn(browser, "#robot-" + robot, text);
+  }
+  // Once it is the one that is chosen.
   static bool WaitForCard(Browser& browser, const std::string& robot, const std::string& text) {
+    (void)browser.Run("window.location.hash = 'fleet/" + robot + "'");
+    return WaitForTextIn(browser, "article[aria-label=" + robot + "]", text);
+  }
+  static bool WaitForTextIn(Browser& browser, const std::string& selector,
+                            const std::string& text) {
     return WaitUntil([&] {
-      const json card =
-          browser.Run("return document.getElementById('robot-" + robot + "')?.innerText ?? ''");
-      return card.is_string() && card.get<std::string>().find(text) != std::string::npos;
+      const json shown =
+          browser.Run("return document.querySelector('" + selector + "')?.innerText ?? ''");
+      return shown.is_string() && shown.get<std::string>().find(text) != std::string::npos;
     });
   }
   // Pixels from the left of the three on their lines; of one that is not drawn, below 0.
   static std::array<double, 3> DrawnAt(Browser& browser) {
     const json at = browser.Run(
-        "return [1, 2, 3].map((n) => document.querySelector(`#robot-robot${n} .on-line circle`)"
+        "return [1, 2, 3].map((n) => document.querySelector(`.lines [data-robot=robot${n}] circle`)"
         "?.getBoundingClientRect().left ?? -1)");
     return at.is_array() ? at.get<std::array<double, 3>>() : std::array<double, 3>{-1, -1, -1};
   }
@@ -112,9 +122,10 @@ TEST_F(ConsolePeopleTest, AnOperatorPausesOneOfThreeRobotsAndWhoLooksSeesIt) {
   ASSERT_TRUE(AllMove(*guest)) << guest->Text();
   anna->Screenshot(Shot("three-driving"));
 
+  ASSERT_TRUE(anna->Click("//a[contains(., 'robot2')]")) << anna->Text();
   ASSERT_TRUE(anna->Click(Card("robot2") + "//button[. = 'Pause']")) << anna->Text();
   const auto clicked = steady_clock::now();
-  ASSERT_TRUE(WaitForCard(*guest, "robot2", "Paused")) << guest->Text();
+  ASSERT_TRUE(WaitForRow(*guest, "robot2", "Paused")) << guest->Text();
   std::printf("who looks saw the pause within %.0f ms\n",
               std::chrono::duration<double, std::milli>(steady_clock::now() - clicked).count());
   EXPECT_TRUE(WaitForCard(*guest, "robot2", "paused by console")) << guest->Text();
@@ -128,7 +139,7 @@ TEST_F(ConsolePeopleTest, AnOperatorPausesOneOfThreeRobotsAndWhoLooksSeesIt) {
   guest->Screenshot(Shot("phone-one-paused"));
 
   // Who only looks finds nothing to press that acts, and the console refuses what they send.
-  for (const std::string page : {"fleet", "map", "network", "routes", "history"}) {
+  for (const std::string page : {"fleet", "cameras", "network", "routes", "history"}) {
     (void)guest->Run("window.location.hash = '" + page + "'");
     ASSERT_TRUE(WaitUntil([&] {
       return guest->Run("return document.querySelector('nav [aria-current]').hash") ==
@@ -138,7 +149,9 @@ TEST_F(ConsolePeopleTest, AnOperatorPausesOneOfThreeRobotsAndWhoLooksSeesIt) {
         guest->Run("return [...document.querySelectorAll('button')].map((each) => each.innerText)");
     EXPECT_THAT(buttons.get<std::vector<std::string>>(),
                 Each(testing::AnyOf("Camera", "Log out", "Search", "More", "Find a path", "−", "+",
-                                    "hall", "bench", "back", HasSubstr("follow "))))
+                                    "hall", "bench", "back", HasSubstr("Commands"),
+                                    HasSubstr("Copy "), StartsWith("All "), StartsWith("Moving "),
+                                    StartsWith("Needs attention "), HasSubstr("follow "))))
         << page;
     EXPECT_THAT(guest->Text(), Not(HasSubstr("Upload"))) << page;
   }
@@ -153,7 +166,7 @@ TEST_F(ConsolePeopleTest, AnOperatorPausesOneOfThreeRobotsAndWhoLooksSeesIt) {
 
   ASSERT_TRUE(anna->Click(Card("robot2") + "//button[. = 'Resume']")) << anna->Text();
   (void)guest->Run("window.location.hash = 'fleet'");
-  EXPECT_TRUE(WaitForCard(*guest, "robot2", "Driving")) << guest->Text();
+  EXPECT_TRUE(WaitForRow(*guest, "robot2", "Driving")) << guest->Text();
   EXPECT_TRUE(GoesOn("robot2")) << agents_[1]->output();
 
   // A stop needs no server.
@@ -164,12 +177,13 @@ TEST_F(ConsolePeopleTest, AnOperatorPausesOneOfThreeRobotsAndWhoLooksSeesIt) {
   }
   anna->Screenshot(Shot("server-lost"));
   ASSERT_TRUE(anna->Click(Card("robot2") + "//button[contains(@class, 'stop')]"));
-  EXPECT_TRUE(WaitForCard(*guest, "robot2", "Stopped")) << guest->Text();
+  EXPECT_TRUE(WaitForRow(*guest, "robot2", "Stopped")) << guest->Text();
   EXPECT_TRUE(Stands("robot2.csv"));
   console_->Signal(SIGKILL);
   for (Browser* browser : {anna.get(), guest.get()}) {
     EXPECT_TRUE(browser->WaitForText("Connection lost: Stop will not reach robots"))
         << browser->Text();
+    EXPECT_TRUE(WaitForRow(*browser, "robot1", "Last: Driving")) << browser->Text();
     EXPECT_TRUE(WaitForCard(*browser, "robot1", "Last: Driving")) << browser->Text();
     EXPECT_TRUE(WaitForCard(*browser, "robot1", "data below is stale")) << browser->Text();
     (void)browser->Run("window.scrollTo(0, document.body.scrollHeight)");

@@ -49,7 +49,7 @@ TEST_F(ConsoleRoutesTest, WhatIsNotKnownYetIsNotSaidToBeAbsent) {
   ASSERT_TRUE(browser_->WaitForText("No robot was sent anywhere yet")) << browser_->Text();
 
   browser_->Block({"*/api/routes*"});
-  Open("map");
+  ASSERT_TRUE(browser_->Click("//label[. = 'Shape']"));
   ASSERT_TRUE(browser_->WaitForText("Other routes are not listed")) << browser_->Text();
   browser_->Block({"*/api/me"});
   browser_->Open("about:blank");
@@ -106,6 +106,22 @@ TEST_F(ConsoleRoutesTest, APersonFindsARouteAndChoosesItsRevision) {
   ASSERT_TRUE(browser_->WaitForText("Upload route")) << browser_->Text();
   ASSERT_TRUE(browser_->Type("//input[@accept='.trailcast']", Path("hall.trailcast")));
   ASSERT_TRUE(browser_->WaitForText("hall revision 1: was there already")) << browser_->Text();
+
+  ASSERT_TRUE(browser_->Click("//a[text()='hall']"));
+  ASSERT_TRUE(browser_->Click("//button[contains(., 'Rename')]"));
+  ASSERT_TRUE(browser_->Type("//label[starts-with(., 'Name')]/input", "way 2"));
+  ASSERT_TRUE(browser_->WaitForText("without spaces")) << browser_->Text();
+  ASSERT_TRUE(browser_->Type("//label[starts-with(., 'Name')]/input",
+                             "\xEE\x80\x83\xEE\x80\x83"));  // Backspace
+  ASSERT_TRUE(browser_->Type("//label[starts-with(., 'Tags')]/input", " night wet"));
+  ASSERT_TRUE(browser_->Type("//label[starts-with(., 'Description')]/input", "along the shelves"));
+  ASSERT_TRUE(browser_->Click("//button[text()='Save']"));
+  ASSERT_TRUE(browser_->WaitForText("Saved.")) << browser_->Text();
+  const json renamed = Get("/api/routes?name=hallway")["routes"];
+  ASSERT_EQ(renamed.size(), 2U) << renamed.dump();
+  EXPECT_EQ(renamed[0]["tags"], json({"night", "wet"}));
+  EXPECT_EQ(renamed[1]["description"], "along the shelves");
+  EXPECT_THAT(browser_->Text(), HasSubstr("hallway"));
 }
 
 TEST_F(ConsoleRoutesTest, APersonSeesWhatWasChangedSinceWhenAndByWhom) {

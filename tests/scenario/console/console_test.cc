@@ -1,5 +1,6 @@
 // The console: a fleet over HTTP, and in a browser.
 #include <chrono>
+#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -122,6 +123,42 @@ TEST_F(ConsoleTest, WhatIsWrongIsSaidAndWhoFallsSilentStaysListed) {
   EXPECT_EQ(End(*console_).status, 0) << console_->output();
 }
 
+TEST_F(ConsoleTest, AlertsOutliveTheConsoleAndEndWithTheirCause) {
+  console_.reset();
+  StartConsole({"--alerts", Path("alerts.json")});
+  ASSERT_TRUE(WaitForState("available")) << State().dump(2);
+  ASSERT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall"}}).status, 200);
+  ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
+  ASSERT_EQ(Post("/api/robots/robot1/pause", {{"reason", "somebody walks here"}}).status, 200);
+  const auto alerts = [&] {
+    const json found = State().value("alerts", json::array());
+    return found.empty() ? json::object() : found[0];
+  };
+  ASSERT_TRUE(WaitUntil([&] { return alerts().value("kind", "") == "held"; })) << State().dump(2);
+  const json held = alerts();
+  EXPECT_THAT(held["reason"].get<std::string>(), HasSubstr("somebody walks here"));
+  EXPECT_THAT(held["place"].get<std::string>(), HasSubstr(" m of hall"));
+  const std::string path = "/api/alerts/" + held["alert"].get<std::string>() + "/acknowledge";
+  ASSERT_EQ(Post(path).status, 200);
+  ASSERT_TRUE(WaitUntil([&] {
+    std::ifstream file(Path("alerts.json"));
+    const json kept = json::parse(file, nullptr, false);
+    return kept.is_object() && kept["alerts"][0]["acknowledged_by"] == "console";
+  }));
+
+  console_->Signal(SIGKILL);
+  (void)End(*console_);
+  StartConsole({"--alerts", Path("alerts.json")});
+  ASSERT_TRUE(WaitUntil([&] { return alerts().value("known", false); })) << State().dump(2);
+  EXPECT_EQ(alerts()["alert"], held["alert"]);
+  EXPECT_EQ(alerts()["since_unix_ms"], held["since_unix_ms"]);
+  EXPECT_EQ(alerts()["acknowledged_by"], "console");
+  EXPECT_EQ(Get("/api/alerts")["kept"], true);
+  ASSERT_EQ(Post("/api/robots/robot1/resume").status, 200);
+  EXPECT_TRUE(WaitUntil([&] { return alerts().empty(); })) << State().dump(2);
+  EXPECT_TRUE(Get("/api/alerts")["alerts"][0]["ended_unix_ms"].is_number());
+}
+
 TEST_F(ConsoleTest, AllAreStoppedAtOnce) {
   ASSERT_TRUE(WaitForState("available")) << State().dump(2);
   EXPECT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall"}}).status, 200);
@@ -193,6 +230,20 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   EXPECT_EQ(Post("/api/robots/robot1/release").status, 200);
   EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
   ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
+  EXPECT_EQ(browser.Run("return document.querySelector('button.all').className"), "stop all")
+      << "it is filled while one may move";
+  ASSERT_TRUE(browser.HoldKey("s", 50));
+  ASSERT_TRUE(WaitForState("stopped")) << "one key: " << browser.Text();
+  EXPECT_TRUE(WaitUntil([&] {
+    return browser.Run("return document.querySelector('button.all').className") ==
+           json("stop all stands");
+  })) << "it is outlined once all stand";
+  ASSERT_TRUE(browser.HoldKey("/", 50));
+  ASSERT_TRUE(browser.Type("//dialog/input", "release robot1\xEE\x80\x87"));  // Enter
+  ASSERT_TRUE(WaitUntil([&] { return Robot1().value("state", "") != "stopped"; }))
+      << browser.Text();
+  EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
+  ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
   ASSERT_TRUE(browser.Click("//button[. = 'Stop all']"));
   ASSERT_TRUE(browser.WaitForText("robot1 stands.")) << browser.Text();
   EXPECT_EQ(Post("/api/robots/robot1/release").status, 200);
@@ -213,6 +264,11 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   EXPECT_EQ(stop_all.status, 1) << stop_all.output;
   EXPECT_THAT(stop_all.output, HasSubstr("robot1: did not answer: last known on its mission"));
   EXPECT_THAT(browser.Text(), AllOf(HasSubstr("Last seen"), HasSubstr("Needs attention")));
+  ASSERT_TRUE(browser.WaitForText("Offline in the middle of its mission")) << browser.Text();
+  const auto title = [&] { return browser.Run("return document.title").dump(); };
+  EXPECT_TRUE(WaitUntil([&] { return title().starts_with("\"(2) "); })) << title();
+  ASSERT_TRUE(browser.Click("//li[contains(., 'Offline in the middle')]/button"));
+  EXPECT_TRUE(WaitUntil([&] { return title().starts_with("\"(1) "); })) << title();
   browser.Look(1280, 800, true);
   browser.Screenshot(Shot("desktop-silent"));
   browser.Open("about:blank");

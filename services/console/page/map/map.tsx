@@ -1,15 +1,15 @@
-import { useMemo, useRef, useState } from 'react';
-import type { Robot, Route } from '../api';
+import { useMemo, useRef, useState, type MouseEvent } from 'react';
+import type { Place, Robot, Route } from '../api';
 import { doubts, kUnsure_m } from '../doubts';
-import { asTaught, beside, boxOf, onPlan, pathOf, pointAt, roundLength, type Point } from './plan';
+import { asTaught, beside, boxOf, nearest, onPlan, pathOf, pointAt, roundLength, type Point } from './plan';
 import { ClassPaths, Robots } from './marks';
 import { RoutePicker } from '../routes/route-picker';
 import { along, classes, useOnScreen, useShape, type Measure, type Shape } from './shape';
-import { SiteView } from './site';
 import { Badge, how, stands } from '../robot/state';
 
 const kMostListed = 20;
 const kPad = 34;  // px about a plan
+export const kNear_px = 24;  // what is clicked so near is meant
 
 export function MapLegend({ measure }: { measure: Measure }) {
   return (
@@ -26,10 +26,16 @@ export function MapLegend({ measure }: { measure: Measure }) {
   );
 }
 
-function Plan({ shape, robots, measure }: { shape: Shape; robots: Robot[]; measure: Measure }) {
+function Plan({ shape, robots, measure, pin, onPlace }: {
+  shape: Shape;
+  robots: Robot[];
+  measure: Measure;
+  pin: number | null;  // along it
+  onPlace: (along_m: number) => void;
+}) {
   const ref = useRef<HTMLDivElement>(null);
   const { width } = useOnScreen(ref);
-  const { draw, height, perMetre, bar_m } = useMemo(() => {
+  const { draw, undo, height, perMetre, bar_m } = useMemo(() => {
     const box = boxOf(shape, asTaught);
     const wide_m = Math.max(box.right - box.left, 0.5);
     const high_m = Math.max(box.high - box.low, 0.5);
@@ -41,6 +47,7 @@ function Plan({ shape, robots, measure }: { shape: Shape; robots: Robot[]; measu
       height,
       perMetre,
       bar_m: roundLength(width / 3 / perMetre),
+      undo: (x: number, y: number) => ({ x: box.left + (x - left) / perMetre, y: box.high - (y - kPad) / perMetre }),
       draw: ({ x, y }: Point) => ({
         x: left + (x - box.left) * perMetre,
         y: kPad + (box.high - y) * perMetre,
@@ -60,10 +67,16 @@ function Plan({ shape, robots, measure }: { shape: Shape; robots: Robot[]; measu
   const start = draw({ x: shape.points.x_m[0], y: shape.points.y_m[0] });
   const last = shape.points.x_m.length - 1;
   const end = draw({ x: shape.points.x_m[last], y: shape.points.y_m[last] });
+  const click = (event: MouseEvent<SVGSVGElement>) => {
+    const frame = event.currentTarget.getBoundingClientRect();
+    const { along, off } = nearest(shape, undo(event.clientX - frame.left, event.clientY - frame.top));
+    if (off * perMetre < kNear_px) onPlace(along);
+  };
+  const pinned = pin === null ? null : draw(pointAt(shape, pin));
   const text = robots.map((robot) => `${robot.name} ${robot.state} at ${how(robot, along(robot, shape), 'm')}`);
   return (
     <div ref={ref} className="plan">
-      <svg role="img" width="100%" height={height}
+      <svg role="img" width="100%" height={height} onClick={click}
         aria-label={`The route's shape by its scout's wheels. ${text.slice(0, 20).join('; ') || 'No robot is on it.'}`}>
         {course}
         {doubts(shape.route, shape.teaching, shape.length).map((each, i) => (
@@ -81,6 +94,7 @@ function Plan({ shape, robots, measure }: { shape: Shape; robots: Robot[]; measu
         <circle className="begin" cx={start.x} cy={start.y} r="6" />
         <rect className="finish" x={end.x - 5} y={end.y - 5} width="10" height="10" />
         <Robots marks={marks} />
+        {pinned && <path className="pin" d={`M${pinned.x} ${pinned.y}l-7-13a7.5 7.5 0 1 1 14 0z`} />}
         <path className="bar" d={`M${kPad} ${height - 14}v5h${bar_m * perMetre}v-5`} />
         <text className="scale" x={kPad + bar_m * perMetre + 6} y={height - 8}>{bar_m} m</text>
       </svg>
@@ -88,7 +102,13 @@ function Plan({ shape, robots, measure }: { shape: Shape; robots: Robot[]; measu
   );
 }
 
-function ShapeView({ robots, live, settled }: { robots: Robot[]; live: Route[]; settled: boolean }) {
+export function ShapeView({ robots, live, settled, pin, onPlace }: {
+  robots: Robot[];
+  live: Route[];
+  settled: boolean;
+  pin: Place | null;
+  onPlace: (place: Place) => void;
+}) {
   const [chosen, setChosen] = useState<Route | null>(null);
   const [measure, setMeasure] = useState<Measure>('features');
   const route = chosen ?? live[0] ?? null;
@@ -113,7 +133,8 @@ function ShapeView({ robots, live, settled }: { robots: Robot[]; live: Route[]; 
       {route && shape?.unit === 's' && <p className="note">{route.name} was taught without odometry: it has no shape.</p>}
       {shape?.unit === 'm' && (
         <>
-          <Plan shape={shape} robots={upon} measure={measure} />
+          <Plan shape={shape} robots={upon} measure={measure} pin={pin?.route === route?.name ? pin!.along_m : null}
+            onPlace={(along_m) => onPlace({ route: route!.name, along_m })} />
           <p className="note by-wheels">
             <strong>Odometry trace (may drift):</strong> wheels slip, and the path bends a little more or less than this.
             {shape.closing && ` Its end looks as its beginning and came out ${shape.closing.gap_m.toFixed(1)} m off; that is spread along the loop for drawing only.`}
@@ -122,7 +143,7 @@ function ShapeView({ robots, live, settled }: { robots: Robot[]; live: Route[]; 
           <ul className="on-map">
             {[...upon].sort((one, other) => Number(stands(other)) - Number(stands(one))).slice(0, kMostListed).map((robot) => (
               <li key={robot.name}>
-                <a href={`#robot-${robot.name}`}>{robot.name}</a> <Badge state={robot.state} />{' '}
+                <a href={`#fleet/${robot.name}`}>{robot.name}</a> <Badge state={robot.state} />{' '}
                 {how(robot, along(robot, shape), 'm')}
                 {stands(robot) && robot.detail ? `: ${robot.detail}` : ''}
               </li>
@@ -132,25 +153,5 @@ function ShapeView({ robots, live, settled }: { robots: Robot[]; live: Route[]; 
         </>
       )}
     </>
-  );
-}
-
-const layers = { shape: 'Shape of a route', site: 'Site' };
-type Layer = keyof typeof layers;
-
-export function MapPage({ robots, routes, settled }: { robots: Robot[]; routes: Route[]; settled: boolean }) {
-  const [layer, setLayer] = useState<Layer>('shape');
-  return (
-    <section className="map" aria-label="Map">
-      <div className="layers" role="radiogroup" aria-label="Layer">
-        {(Object.keys(layers) as Layer[]).map((each) => (
-          <label key={each}>
-            <input type="radio" name="layer" checked={layer === each} onChange={() => setLayer(each)} />
-            {layers[each]}
-          </label>
-        ))}
-      </div>
-      {layer === 'shape' ? <ShapeView robots={robots} live={routes} settled={settled} /> : <SiteView robots={robots} live={routes} />}
-    </section>
   );
 }

@@ -56,6 +56,27 @@ export function beside(at: Point & { heading: number }, left_m: number): Point {
   return { x: at.x - left_m * Math.sin(at.heading), y: at.y + left_m * Math.cos(at.heading) };
 }
 
+// How far along the shape is nearest to a point, and how far off that is.
+export function nearest(shape: Shape, at: Point): { along: number; off: number } {
+  const { along: grid, x_m, y_m } = shape.points;
+  let best = { along: 0, off: Infinity };
+  for (let i = 0; i + 1 < grid.length; ++i) {
+    const [dx, dy] = [x_m[i + 1] - x_m[i], y_m[i + 1] - y_m[i]];
+    const share = Math.min(1, Math.max(0, ((at.x - x_m[i]) * dx + (at.y - y_m[i]) * dy) / (dx * dx + dy * dy || 1)));
+    const off = Math.hypot(x_m[i] + share * dx - at.x, y_m[i] + share * dy - at.y);
+    if (off < best.off) best = { along: grid[i] + share * (grid[i + 1] - grid[i]), off };
+  }
+  return best;
+}
+
+// Metres on the site as a route's own.
+export function unplaced(at: Point, placement: Placement): Point {
+  const cos = Math.cos(placement.heading_rad) / placement.scale;
+  const sin = Math.sin(placement.heading_rad) / placement.scale;
+  const [x, y] = [at.x - placement.x_m, at.y - placement.y_m];
+  return { x: cos * x + sin * y, y: cos * y - sin * x };
+}
+
 // Of a stretch, as a path: its own ends, and what lies between.
 export function pathOf(shape: Shape, begin: number, end: number, draw: (at: Point) => Point): string {
   const text = (at: Point) => {
@@ -115,23 +136,44 @@ export function roundLength(most_m: number): number {
   return [5, 2, 1].map((digit) => digit * ten).find((length) => length <= most_m) ?? ten;
 }
 
-export type OnPlan = { robot: Robot; x: number; y: number; heading: number; named: boolean };
+// `name`: where its middle is drawn; null: where many stand there is no room for it.
+export type OnPlan = { robot: Robot; x: number; y: number; heading: number; name: Point | null };
 
-// Robots in pixels, those that stand above the others; names that would lie over others are left
-// out.
+const kLetter_px = 8.3;
+const kFew = 15;  // robots, whose names may be farther off
+const kName_px = 15;  // high
+const kMark_px = 12;  // half of one
+// From a robot's middle, in the order of preference: above and below, to their sides, and farther off.
+const kSpots: ((wide: number) => Point)[] = [-16, 26, -32, 42].flatMap((y) => [
+  () => ({ x: 0, y }), (wide: number) => ({ x: wide / 2 + 10, y }), (wide: number) => ({ x: -wide / 2 - 10, y }),
+]).concat([-16, 26].flatMap((y) => [(wide: number) => ({ x: wide + 14, y }), (wide: number) => ({ x: -wide - 14, y })]));
+
+// Finds for each name a place where it lies over no other and over no robot, the last first.
+// `free`: there may be a name.
+export function placeNames(marks: OnPlan[], free: (at: Point, wide: number) => boolean = () => true) {
+  const taken: { x: number; y: number; wide: number }[] = [];
+  for (const mark of [...marks].reverse()) {
+    const wide = kLetter_px * mark.robot.name.length;
+    const spots = marks.length > kFew ? kSpots.slice(0, 6) : kSpots;
+    const spot = spots.map((from) => ({ x: mark.x + from(wide).x, y: mark.y + from(wide).y })).find((at) =>
+      free(at, wide)
+      && taken.every((other) => Math.abs(other.x - at.x) > (other.wide + wide) / 2 + 3 || Math.abs(other.y - at.y) > kName_px)
+      && marks.every((other) => Math.abs(other.x - at.x) > wide / 2 + kMark_px || Math.abs(other.y - (at.y - 4)) > kMark_px + 4));
+    mark.name = spot ?? null;
+    if (spot) taken.push({ ...spot, wide });
+  }
+}
+
+// Robots in pixels, those that stand above the others.
 export function onPlan(robots: Robot[], shape: Shape, draw: (at: Point) => Point): OnPlan[] {
-  const marks = robots.map((robot) => {
+  const marks: OnPlan[] = robots.map((robot) => {
     const on = pointAt(shape, along(robot, shape) ?? 0);
     const at = beside(on, robot.left_m ?? 0);
     const { x, y } = draw(at);
     const front = draw({ x: at.x + Math.cos(on.heading), y: at.y + Math.sin(on.heading) });
-    return { robot, x, y, heading: Math.atan2(front.y - y, front.x - x), named: false };
+    return { robot, x, y, heading: Math.atan2(front.y - y, front.x - x), name: null };
   });
   marks.sort((one, other) => Number(stands(one.robot)) - Number(stands(other.robot)));
-  const taken: Point[] = [];
-  for (const mark of [...marks].reverse()) {
-    mark.named = !taken.some(({ x, y }) => Math.abs(x - mark.x) < 70 && Math.abs(y - mark.y) < 24);
-    if (mark.named) taken.push({ x: mark.x, y: mark.y });
-  }
+  placeNames(marks);
   return marks;
 }

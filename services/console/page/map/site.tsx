@@ -1,10 +1,11 @@
-import { useEffect, useMemo, useRef, useState, type KeyboardEvent, type PointerEvent } from 'react';
-import { change, get, type Answer, type Robot, type Route } from '../api';
+import { useEffect, useMemo, useRef, useState, type KeyboardEvent, type MouseEvent, type PointerEvent } from 'react';
+import { change, get, type Answer, type Place, type Robot, type Route } from '../api';
 import { useMay } from '../me';
 import { ClassPaths, Robots } from './marks';
-import { boxOf, metresFrom, onPlan, placed, roundLength, type Box, type Origin, type Placement, type Point, type Site } from './plan';
+import { boxOf, metresFrom, nearest, onPlan, placed, pointAt, roundLength, unplaced, type Box, type Origin, type Placement, type Point, type Site } from './plan';
 import { RoutePicker } from '../routes/route-picker';
-import { useOnScreen, useShape } from './shape';
+import { kNear_px } from './map';
+import { useOnScreen, useShape, type Shape } from './shape';
 
 const kPad_m = 2;
 const kMostRoutes = 40;
@@ -36,15 +37,20 @@ function usePlanSize(site: Site | null, onMissing: () => void): { width: number;
   return size;
 }
 
-function PlacedRoute({ route, placement, robots, toScreen, chosen, onBox }: {
+function PlacedRoute({ route, placement, robots, toScreen, chosen, pin, onBox, onShape }: {
   route: Route;
   placement: Placement;
   robots: Robot[];
   toScreen: (at: Point) => Point;
   chosen: boolean;
+  pin: number | null;
   onBox: (route: string, box: Box) => void;
+  onShape: (route: string, shape: Shape) => void;
 }) {
   const { shape } = useShape(route.route, '');
+  useEffect(() => {
+    if (shape) onShape(route.route, shape);
+  }, [shape]);
   const draw = (at: Point) => toScreen(placed(at, placement));
   const drawn = !!shape && shape.points.x_m.length > 1;
   useEffect(() => {
@@ -52,6 +58,7 @@ function PlacedRoute({ route, placement, robots, toScreen, chosen, onBox }: {
   }, [shape, placement]);
   const course = useMemo(() => shape && drawn && <ClassPaths shape={shape} measure="features" draw={draw} />, [shape, placement, toScreen]);
   const start = draw({ x: 0, y: 0 });
+  const pinned = pin !== null && shape && drawn ? draw(pointAt(shape, pin)) : null;
   const on = robots.filter((robot) => shape && robot.teaching === shape.teaching);
   return (
     <g className={chosen ? 'placed chosen' : 'placed'}>
@@ -59,6 +66,7 @@ function PlacedRoute({ route, placement, robots, toScreen, chosen, onBox }: {
       <circle className="begin" cx={start.x} cy={start.y} r="5" />
       <text x={start.x + 9} y={start.y + 16}>{route.name}</text>
       {shape && drawn && <Robots marks={onPlan(on, shape, draw)} />}
+      {pinned && <path className="pin" d={`M${pinned.x} ${pinned.y}l-7-13a7.5 7.5 0 1 1 14 0z`} />}
     </g>
   );
 }
@@ -143,7 +151,14 @@ function Handles({ placement, toScreen, toSite, onChange }: {
   );
 }
 
-export function SiteView({ robots, live }: { robots: Robot[]; live: Route[] }) {
+export function SiteView({ robots, live, pin, onPlace }: {
+  robots: Robot[];
+  live: Route[];
+  pin: Place | null;
+  onPlace: (place: Place) => void;
+}) {
+  const shapes = useRef(new Map<string, Shape>());
+  const onShape = (route: string, shape: Shape) => void shapes.current.set(route, shape);
   const ref = useRef<HTMLDivElement>(null);
   const svg = useRef<SVGSVGElement>(null);
   const { width: shown } = useOnScreen(ref);
@@ -212,7 +227,7 @@ export function SiteView({ robots, live }: { robots: Robot[]; live: Route[] }) {
     () => ({ x, y }: Point) => ({ x: left + (x - box.left) * perMetre, y: (box.high - y) * perMetre }),
     [left, box.left, box.high, perMetre],
   );
-  const toSite = (event: PointerEvent): Point => {
+  const toSite = (event: MouseEvent): Point => {
     const frame = svg.current!.getBoundingClientRect();
     return {
       x: box.left + (event.clientX - frame.left - left) / perMetre,
@@ -242,6 +257,20 @@ export function SiteView({ robots, live }: { robots: Robot[]; live: Route[] }) {
     if (same && same.left === grown.left && same.right === grown.right && same.low === grown.low && same.high === grown.high) return;
     setBoxes((before) => ({ ...before, [route]: grown }));
   };
+  // The route that passes nearest to where one clicks.
+  const click = (event: MouseEvent) => {
+    const at = toSite(event);
+    let best = { route: '', along_m: 0, off_px: kNear_px };
+    for (const [id, placement] of placements) {
+      const shape = shapes.current.get(id);
+      if (!shape || shape.unit !== 'm') continue;
+      const { along, off } = nearest(shape, unplaced(at, placement));
+      const off_px = off * placement.scale * perMetre;
+      if (off_px < best.off_px) best = { route: known.get(id)!.name, along_m: along, off_px };
+    }
+    if (best.route && !(chosen && mayPlace)) onPlace({ route: best.route, along_m: best.along_m });
+  };
+  const pinOn = (route: Route) => (pin?.route === route.name ? pin.along_m : null);
   const bar_m = roundLength(shown / 3 / perMetre);
   const corner = toScreen({ x: box.left, y: box.high });
   return (
@@ -257,15 +286,16 @@ export function SiteView({ robots, live }: { robots: Robot[]; live: Route[] }) {
         <p className="note">Nothing is kept of where routes lie: start the console with <code>--site FOLDER</code>, in which a floor plan may be.</p>
       )}
       <div className={plan ? 'plan site upon' : 'plan site'} ref={ref} tabIndex={zoom > 1 ? 0 : -1}>
-        <svg ref={svg} width={width} height={height} role="group" aria-label="The site, with the routes that are placed upon it">
+        <svg ref={svg} width={width} height={height} role="group" onClick={click} aria-label="The site, with the routes that are placed upon it">
           {plan && <image href="/api/site/plan" x={corner.x} y={corner.y} width={plan.width * perMetre} height={plan.height * perMetre} />}
           {[...placements].map(([id, placement]) => (
             <PlacedRoute key={id} route={known.get(id)!} robots={robots.filter((robot) => robot.route_id === id)}
-              placement={chosen?.route === id && draft ? draft : placement} toScreen={toScreen} chosen={chosen?.route === id} onBox={onBox} />
+              placement={chosen?.route === id && draft ? draft : placement} toScreen={toScreen} chosen={chosen?.route === id}
+              pin={pinOn(known.get(id)!)} onBox={onBox} onShape={onShape} />
           ))}
           {chosen && draft && !placements.has(chosen.route) && (
             <PlacedRoute route={chosen} robots={robots.filter((robot) => robot.route_id === chosen.route)}
-              placement={draft} toScreen={toScreen} chosen onBox={onBox} />
+              placement={draft} toScreen={toScreen} chosen pin={null} onBox={onBox} onShape={onShape} />
           )}
           {chosen && at && mayPlace && <Handles placement={at} toScreen={toScreen} toSite={toSite} onChange={edit} />}
         </svg>

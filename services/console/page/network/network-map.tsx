@@ -2,13 +2,13 @@ import { memo, useId, useRef, useState, type MouseEvent } from 'react';
 import type { Place } from '../api';
 import { Robots } from '../map/marks';
 import { lostText, metres, placeOf, rowOf, spotOf, textOf, told, type Layout, type Link, type Row } from './network-layout';
-import { roundLength, type OnPlan } from '../map/plan';
+import { placeNames, roundLength, type OnPlan } from '../map/plan';
 import { useOnScreen } from '../map/shape';
 import { stands } from '../robot/state';
 
-const kFew = 12;         // rows that have more room
-const kRow_px = 64;
-const kManyRow_px = 52;
+const kRows_px = 400;    // that few rows share
+const kRow_px = 52;
+const kMostRow_px = 112;
 const kLine = 0.55;      // of a row's height
 const kSide_px = 18;
 const kBow_px = 15;
@@ -151,17 +151,15 @@ const RowNames = memo(function RowNames({ rows, rowHeight, chosen, onChoose }: {
   );
 });
 
-// Robots in pixels, those that stand above the others; names that would lie over others are left out.
+// Robots in pixels, those that stand above the others.
 function marksOf(row: Row, i: number, frame: Frame): OnPlan[] {
-  const marks = row.robots.map((robot) => ({
-    robot, x: xOf(frame, row, Math.min(row.length_m, Math.max(0, robot.along_m ?? 0))), y: yOf(frame, i), heading: 0, named: false,
+  const marks: OnPlan[] = row.robots.map((robot) => ({
+    robot, x: xOf(frame, row, Math.min(row.length_m, Math.max(0, robot.along_m ?? 0))), y: yOf(frame, i), heading: 0, name: null,
   }));
   marks.sort((one, other) => Number(stands(one.robot)) - Number(stands(other.robot)));
-  const taken: number[] = [];
-  for (const mark of [...marks].reverse()) {
-    mark.named = !taken.some((x) => Math.abs(x - mark.x) < 70);
-    if (mark.named) taken.push(mark.x);
-  }
+  // In its own row.
+  placeNames(marks, (at, wide) => at.y > i * frame.rowHeight + 10 && at.y < (i + 1) * frame.rowHeight - 2
+    && at.x > wide / 2 && at.x < frame.width - wide / 2);
   return marks;
 }
 
@@ -206,7 +204,7 @@ export function NetworkMap({ layout, still, chosen, onChoose, onPlace, overlay }
   const hatch = useId().replace(/:/g, '');
   const { rows, links, end_m } = layout;
   const width = Math.max(120, shown) * zoom;
-  const rowHeight = rows.length > kFew ? kManyRow_px : kRow_px;
+  const rowHeight = Math.round(Math.min(kMostRow_px, Math.max(kRow_px, kRows_px / rows.length)));
   const perMetre = (width - 2 * kSide_px) / end_m;
   // The same object for as long as nothing of it changes.
   const last = useRef<Frame>({ rowHeight, perMetre, width });
@@ -259,7 +257,9 @@ export function NetworkMap({ layout, still, chosen, onChoose, onPlace, overlay }
 function NetworkLegend() {
   const sample = (inside: JSX.Element) => <svg width="34" height="18" aria-hidden="true">{inside}</svg>;
   return (
-    <p className="legend net-legend">
+    <details className="legend-box">
+      <summary>Legend</summary>
+      <p className="legend net-legend">
       <span>{sample(<><path className="track" d="M4 9H28" /><path className="track-end" d={head(33, 9, 1, 0)} /><circle className="track-begin" cx="5" cy="9" r="4" /></>)}a route, as it was taught</span>
       <span>{sample(<g className="joint"><path d="M6 2L24 16" /><path className="head" d={head(24, 16, 18, 14)} /></g>)}junction: robots may change over</span>
       <span>{sample(<g className="joint proposed"><path d="M4 9H30" /><text x="17" y="13" textAnchor="middle">?</text></g>)}proposed by a server</span>
@@ -271,6 +271,7 @@ function NetworkLegend() {
       <span>{sample(<path className="lost-at" d="M3 9H31" />)}robots lost their path there</span>
       <span>{sample(<g className="named"><circle cx="17" cy="9" r="6" /></g>)}a named place</span>
       <span>{sample(<g className="on-line free unheard"><circle cx="17" cy="9" r="7" /></g>)}where a robot stood last</span>
-    </p>
+      </p>
+    </details>
   );
 }

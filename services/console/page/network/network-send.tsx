@@ -7,7 +7,7 @@ import { Slide } from '../robot/send';
 export type Shown = { robot: string; to: string; way: Way };
 
 // Those that would take a mission now.
-const isFree = (robot: Robot) =>
+export const isFree = (robot: Robot) =>
   robot.role === 'follower' && robot.heard && !robot.mission && !['driving', 'teaching', 'shut down'].includes(robot.state);
 
 function whereOf(robot: Robot): string {

@@ -82,7 +82,7 @@ const Line = memo(function Line({ row, isChosen, onChoose, onAround, onEdit }: O
       <td data-label="Robots">
         <ul className="plain">
           {row.robots.slice(0, kMostRobots).map((robot) => (
-            <li key={robot.name}><a href={`#robot-${robot.name}`}>{robot.name}</a> {standsHow(robot)}</li>
+            <li key={robot.name}><a href={`#fleet/${robot.name}`}>{robot.name}</a> {standsHow(robot)}</li>
           ))}
           {row.robots.length > kMostRobots && <li>and {row.robots.length - kMostRobots} more</li>}
         </ul>

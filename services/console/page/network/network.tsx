@@ -16,7 +16,7 @@ const kMostStrays = 20;
 type Query = { search: string; around: string; limit: string };
 
 // Asked for anew as long as the page is seen. What was there last stays where the console does not answer.
-function useNetwork(query: Query): { part: NetworkPart | null; why: string; again: () => void } {
+export function useNetwork(query: Query): { part: NetworkPart | null; why: string; again: () => void } {
   const [part, setPart] = useState<NetworkPart | null>(null);
   const [why, setWhy] = useState('');
   const [asks, setAsks] = useState(0);
@@ -164,7 +164,7 @@ export function NetworkPage({ robots, live }: { robots: Robot[]; live: Route[] }
           On routes that are not shown, or on another revision than is followed:{' '}
           {layout.strays.slice(0, kMostStrays).map((robot, i) => (
             <span key={robot.name}>
-              {i > 0 && ', '}<a href={`#robot-${robot.name}`}>{robot.name}</a> {standsHow(robot)} of {robot.route}
+              {i > 0 && ', '}<a href={`#fleet/${robot.name}`}>{robot.name}</a> {standsHow(robot)} of {robot.route}
             </span>
           ))}
           {layout.strays.length > kMostStrays && ` and ${layout.strays.length - kMostStrays} more`}

@@ -93,12 +93,11 @@ function beside(robot: Robot): string | null {
   return `${Math.abs(robot.left_m).toFixed(2)} m ${robot.left_m < 0 ? 'right' : 'left'} of the path, ± ${robot.left_sigma_m.toFixed(2)} m`;
 }
 
-export function Glance({ robot }: { robot: Robot }) {
+// `brief`: the picture, and in a line what the robot makes of it.
+export function Glance({ robot, brief = false }: { robot: Robot; brief?: boolean }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const [look, setLook] = useState<Look>({ text: '', marked: false, why: 'Waiting for a picture …' });
   useEffect(() => {
-    // Whoever opens it wants to see it, and out of view it shows nothing.
-    canvas.current!.scrollIntoView({ block: 'nearest' });
     return pull(robot.name, canvas.current!, setLook);
   }, [robot.name]);
   const place = beside(robot);
@@ -108,14 +107,15 @@ export function Glance({ robot }: { robot: Robot }) {
         <canvas ref={canvas} width="320" height="240" role="img" aria-label={`What the camera of ${robot.name} sees`} />
         {look.why !== null && <p className="why">{look.why}</p>}
       </div>
-      <dl>
+      {brief && <p className="note">{look.text || '–'}</p>}
+      {!brief && <dl>
         {look.text && <><dt>View</dt><dd>{look.text}</dd></>}
         {robot.along_m !== null && (
           <><dt>Position</dt><dd>{robot.along_m.toFixed(2)} m{robot.length_m !== null && ` of ${robot.length_m.toFixed(2)} m`}, segment {robot.segment}</dd></>
         )}
         {place !== null && <><dt>Lateral offset</dt><dd>{place}</dd></>}
-      </dl>
-      {look.marked && <MarksLegend />}
+      </dl>}
+      {look.marked && !brief && <MarksLegend />}
     </figure>
   );
 }

@@ -1,16 +1,18 @@
 import { memo, useEffect, useState } from 'react';
-import { tell, type Answer, type Order, type Robot } from '../api';
+import { forget, tell, type Answer, type Order, type Robot } from '../api';
+import { Copy } from '../copy';
 import { age } from '../fleet';
 import { Glance } from './glance';
 import { useMay } from '../me';
 import { Send } from './send';
-import { Badge } from './state';
+import { Badge, mayMove } from './state';
 import { StopButton } from '../stop';
 import { Strip } from './strip';
 import { Teach, Teaching } from './teach';
+import { Charts } from './trace';
 import { Vitals } from './vitals';
 
-const labels: Record<Order, string> = {
+export const labels: Record<Order, string> = {
   pause: 'Pause', resume: 'Resume', cancel: 'Cancel mission', stop: 'Stop', release: 'Release', end: 'End',
 };
 
@@ -22,12 +24,16 @@ function agedBy(ms: number): string {
   return ms < 30000 ? 'aged-little' : ms < 300000 ? 'aged' : 'aged-much';
 }
 
-// Drawn anew only when the robot has changed: there may be a hundred. `now_ms` counts for one that
-// is not heard, or of which the page hears nothing since `lost_ms`.
-export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms }: {
+// Where there is room for it. A phone's link may be slow, and paid for.
+const hasRoom = () => window.matchMedia('(min-width: 64rem)').matches;
+
+// Drawn anew only when the robot has changed. `now_ms` counts for one that is not heard, or of which
+// the page hears nothing since `lost_ms`.
+export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone = false }: {
   robot: Robot;
   lost_ms: number | null;
   now_ms: number;
+  alone?: boolean;  // on a page of its own
 }) {
   const seen_ms = robot.last_heard_unix_ms ?? lost_ms;
   const [answer, setAnswer] = useState<Answer | null>(null);
@@ -41,7 +47,10 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms }: {
     setAnswered(Date.now());
   };
   const [open, setOpen] = useState<'' | 'send' | 'teach'>('');
-  const [looking, setLooking] = useState(false);
+  const [wants, setWants] = useState<boolean | null>(null);
+  // Whoever drives it has to see where.
+  const looking = wants ?? (robot.teaches || hasRoom());
+  const [sureGone, setSureGone] = useState(false);
   const order = async (given: Order) => {
     say({ ok: true, text: `Sending ${labels[given]} …` });
     say(await tell(robot.name, given));
@@ -55,28 +64,17 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms }: {
   const others = robot.orders.filter((each) => each !== 'stop' && !(robot.teaches && (each === 'end' || each === 'cancel')));
   const mission = robot.mission;
   const maySend = !mission && !['driving', 'teaching', 'shut down'].includes(robot.state);
+  const seesIt = robot.state !== 'shut down' && robot.heard;
+  const mayDismiss = mayOperate && (!robot.heard || robot.state === 'shut down') && robot.unanswered_stop_unix_ms === null && lost_ms === null;
   return (
-    <article id={`robot-${robot.name}`} className={seen_ms === null ? '' : `unheard ${agedBy(now_ms - seen_ms)}`} aria-label={robot.name}>
+    <article className={seen_ms === null ? 'robot' : `robot unheard ${agedBy(now_ms - seen_ms)}`} aria-label={robot.name}>
       <header>
         <h2>{robot.name}</h2>
         <Badge state={robot.state} />
-        {obeys && (
-          <StopButton robot={robot.name} onClick={() => order('stop')} />
-        )}
+        {obeys && <StopButton robot={robot.name} moves={mayMove(robot)} onClick={() => order('stop')} />}
       </header>
       {seen_ms !== null && <p className="last-heard">Last seen {age(now_ms - seen_ms)} ago; data below is stale.</p>}
       {robot.detail && robot.detail !== robot.state && <p className="detail">{robot.detail}</p>}
-      {robot.route && !robot.teaches && robot.route_id && <Strip robot={robot} />}
-      {robot.route && !robot.teaches && !robot.route_id && (
-        <p className="note">Route {robot.route}: it has not found its place there yet.</p>
-      )}
-      <Vitals robot={robot} />
-      {mission && (
-        <p className="mission">
-          Mission <code>{mission.mission}</code> of {mission.sent_by || 'somebody'}: {mission.orders || '(orders not told)'}
-          {' '}– <strong>{mission.state}</strong>
-        </p>
-      )}
       <div className="orders">
         {obeys && others.map((each) => (
           <button key={each} onClick={() => order(each)}>{labels[each]}</button>
@@ -86,17 +84,35 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms }: {
             {each === 'send' ? 'Send …' : 'Teach …'}
           </button>
         ))}
-        {robot.state !== 'shut down' && (
-          <button aria-expanded={looking} onClick={() => setLooking(!looking)}>Camera</button>
+        {mayDismiss && (
+          <button title="It is listed again once it is heard"
+            onClick={async () => (mayMove(robot) && !sureGone ? setSureGone(true) : say(await forget(robot.name)))}>
+            {sureGone ? 'Dismiss, though Stop all no longer means it' : 'Dismiss'}
+          </button>
         )}
+        {seesIt && <button aria-expanded={looking} onClick={() => setWants(!looking)}>Camera</button>}
+        {!alone && <a className="button" href={`#robot/${robot.name}`}>Open page</a>}
       </div>
-      {looking && robot.state !== 'shut down' && <Glance robot={robot} />}
-      {obeys && open === 'send' && maySend && <Send robot={robot.name} onAnswer={sent} />}
-      {obeys && open === 'teach' && maySend && <Teach robot={robot.name} onAnswer={sent} />}
-      {obeys && robot.teaches && seen_ms === null && <Teaching robot={robot} onAnswer={say} />}
       <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>
+      {obeys && open === 'send' && maySend && <Send robot={robot.name} onAnswer={sent} />}
+      {obeys && open === 'teach' && maySend && <Teach robot={robot.name} onAnswer={sent} />}
+      {looking && seesIt && robot.teaches && <Glance robot={robot} brief />}
+      {obeys && robot.teaches && seen_ms === null && <Teaching robot={robot} onAnswer={say} />}
+      {robot.route && !robot.teaches && robot.route_id && <Strip robot={robot} />}
+      {robot.route && !robot.teaches && !robot.route_id && (
+        <p className="note">Route {robot.route}: it has not found its place there yet.</p>
+      )}
+      {looking && seesIt && !robot.teaches && <Glance robot={robot} />}
+      {mission && (
+        <p className="mission">
+          Mission of {mission.sent_by || 'somebody'}: {mission.orders || '(orders not told)'} – <strong>{mission.state}</strong>{' '}
+          <Copy id={mission.mission} what="mission" />
+        </p>
+      )}
+      <Charts robot={robot} />
+      <Vitals robot={robot} />
     </article>
   );
 });

@@ -3,7 +3,7 @@ import { useContext } from 'react';
 import type { Robot, RobotState } from '../api';
 import { Lost } from '../lost';
 
-const capital = (state: RobotState) => state[0].toUpperCase() + state.slice(1);
+export const capital = (state: RobotState) => state[0].toUpperCase() + state.slice(1);
 
 // A shape each, so that colour is not needed to tell them apart.
 export const shapes: Record<RobotState, string> = {
@@ -14,17 +14,32 @@ export const shapes: Record<RobotState, string> = {
   failed: 'M8 2v8M8 12v2',
 };
 
+const filled = ['stopped', 'paused', 'driving', 'fault'];
+
+export function Glyph({ state }: { state: RobotState }) {
+  const lost = useContext(Lost);
+  return (
+    <span className={lost ? 'glyph-dot old' : `glyph-dot ${state.replace(' ', '-')}`} aria-hidden="true">
+      <svg viewBox="0 0 16 16" className={filled.includes(state) ? 'filled' : ''}><path d={shapes[state]} /></svg>
+    </span>
+  );
+}
+
 // Where the page has lost its console, a robot's state is what it was last.
 export function Badge({ state }: { state: RobotState }) {
   const lost = useContext(Lost);
-  const filled = ['stopped', 'paused', 'driving', 'fault'].includes(state);
   return (
     <span className={lost ? 'badge old' : `badge ${state.replace(' ', '-')}`}>
-      <svg viewBox="0 0 16 16" aria-hidden="true" className={filled ? 'filled' : ''}><path d={shapes[state]} /></svg>
+      <svg viewBox="0 0 16 16" aria-hidden="true" className={filled.includes(state) ? 'filled' : ''}><path d={shapes[state]} /></svg>
       {lost ? `Last: ${capital(state)}` : capital(state)}
     </span>
   );
 }
+
+// As far as is known: one that is offline may have been sent on by itself.
+const standing: RobotState[] = ['stopped', 'paused', 'available', 'arrived', 'failed', 'fault', 'shut down'];
+export const mayMove = (robot: Robot) =>
+  !standing.includes(robot.state) || robot.speed_mps !== 0 || robot.unanswered_stop_unix_ms !== null;
 
 // Robots that stand are seen first: they are listed first, and drawn last.
 export const stands = (robot: Robot) => robot.state !== 'driving' && robot.state !== 'teaching';

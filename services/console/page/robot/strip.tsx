@@ -1,5 +1,5 @@
-import { memo, useRef } from 'react';
-import type { Robot } from '../api';
+import { memo, useRef, type MouseEvent } from 'react';
+import type { Place, Robot } from '../api';
 import { doubts, kUnsure_m } from '../doubts';
 import { along, classes, stretches, useOnScreen, useShape, type Shape } from '../map/shape';
 import { Badge, how, shapes, stands } from './state';
@@ -66,7 +66,7 @@ function Marker({ mark, width }: { mark: Mark; width: number }) {
   const name = Math.min(Math.max(wide / 2, mark.x), width - wide / 2);
   const colour = `on-line ${robot.state.replace(' ', '-')}${robot.heard ? '' : ' unheard'}`;
   return (
-    <g className={colour}>
+    <g className={colour} data-robot={robot.name}>
       {robot.left_sigma_m && (
         <rect className="unsure" x={mark.x - 11} width={22} y={kMiddle - half} height={2 * half} rx={4} />
       )}
@@ -81,7 +81,11 @@ function Marker({ mark, width }: { mark: Mark; width: number }) {
 }
 
 // A route as a metro line, with the robots upon it. Drawn anew only when one of them has changed.
-const Line = memo(function Line({ robots }: { robots: Robot[] }) {
+const Line = memo(function Line({ robots, pin = null, onPlace }: {
+  robots: Robot[];
+  pin?: number | null;  // along it
+  onPlace?: (along_m: number) => void;
+}) {
   const ref = useRef<HTMLDivElement>(null);
   const { seen, width } = useOnScreen(ref);
   const on = robots.find((robot) => robot.route_id) ?? robots[0];
@@ -96,11 +100,17 @@ const Line = memo(function Line({ robots }: { robots: Robot[] }) {
   const marks = place(robots, (robot) => x(Math.min(length, Math.max(0, at(robot)))), width);
   const unsure = doubts(on.route_id, on.teaching, length).map(({ begin, end }) =>
     `M${x(begin).toFixed(1)} ${kMiddle + 16}H${x(end).toFixed(1)}`);
+  const click = (event: MouseEvent<SVGSVGElement>) => {
+    if (!onPlace || unit !== 'm' || !shape) return;
+    const at_px = event.clientX - event.currentTarget.getBoundingClientRect().left;
+    onPlace(Math.min(length, Math.max(0, (at_px - kSide) / (width - 2 * kSide) * length)));
+  };
   const text = robots.slice(0, 20)
     .map((robot) => `${robot.name} ${robot.state} at ${how(robot, along(robot, shape), unit)}`).join('; ');
   return (
     <div className="line" ref={ref}>
-      <svg role="img" aria-label={`Route ${on.route}: ${text}`} width="100%" height={kMiddle + 30}>
+      <svg role="img" aria-label={`Route ${on.route}: ${text}`} width="100%" height={kMiddle + 30}
+        className={onPlace && shape ? 'clickable' : ''} onClick={click}>
         <path className="way" d={`M${x(0)} ${kMiddle}H${x(length)}`} />
         {shape && <Cells shape={shape} width={width} />}
         {unsure.length > 0 && <path className="doubted" d={unsure.join('')} />}
@@ -109,6 +119,7 @@ const Line = memo(function Line({ robots }: { robots: Robot[] }) {
         <text className="scale" x={x(length)} y={kMiddle + 27} textAnchor="end">
           {known ? metres(length, unit) : 'its end'}
         </text>
+        {pin !== null && <path className="pin" d={`M${x(pin)} ${kMiddle}l-7-13a7.5 7.5 0 1 1 14 0z`} />}
         {marks.map((mark) => <Marker key={mark.robot.name} mark={mark} width={width} />)}
       </svg>
       {!shape && on.route_id && (fetched > 0 || error) && (
@@ -116,7 +127,7 @@ const Line = memo(function Line({ robots }: { robots: Robot[] }) {
       )}
     </div>
   );
-}, (one, other) => one.robots.length === other.robots.length && one.robots.every((robot, i) => robot === other.robots[i]));
+}, (one, other) => one.pin === other.pin && one.robots.length === other.robots.length && one.robots.every((robot, i) => robot === other.robots[i]));
 
 // On a robot's card.
 export function Strip({ robot }: { robot: Robot }) {
@@ -128,9 +139,11 @@ export function Strip({ robot }: { robot: Robot }) {
   );
 }
 
-export function Legend() {
+function Legend() {
   return (
-    <p className="legend">
+    <details className="legend-box">
+      <summary>Legend</summary>
+      <p className="legend">
       Features to steer by:{' '}
       {classes.features.map((words, kind) => (
         <span key={kind}>
@@ -141,12 +154,19 @@ export function Legend() {
       <span><svg width="22" height="18" aria-hidden="true"><path className="weak" d="M0 9H22" /></svg>weak: followers may be unsure</span>
       <span><svg width="22" height="18" aria-hidden="true"><path className="doubted" d="M0 9H22" /></svg>position uncertain this session (± {kUnsure_m} m and more)</span>
       <span><svg width="22" height="18" aria-hidden="true"><rect className="unsure" x="4" width="14" y="1" height="16" rx="4" /></svg>the taller, the less sure a robot is</span>
-    </p>
+      </p>
+    </details>
   );
 }
 
 // The routes that robots are on, and who stands there and why.
-export function Lines({ robots }: { robots: Robot[] }) {
+export function Lines({ robots, chosen, settled, pin, onPlace }: {
+  robots: Robot[];
+  chosen: string;
+  settled: boolean;
+  pin: Place | null;
+  onPlace: (place: Place) => void;
+}) {
   const routes = new Map<string, Robot[]>();
   for (const robot of robots) {
     // One that has not found itself on its route yet may be anywhere, or there may be no such route.
@@ -156,19 +176,18 @@ export function Lines({ robots }: { robots: Robot[] }) {
     if (others) others.push(robot);
     else routes.set(key, [robot]);
   }
-  if (routes.size === 0) return null;
+  if (routes.size === 0) return <p className="note">{settled ? 'No robot is on a route.' : 'Searching for robots …'}</p>;
   return (
-    <section className="lines" aria-label="Routes with robots on them">
-      <h2>Active routes</h2>
+    <section className="lines" aria-label="Active routes">
       {[...routes].map(([key, on]) => (
         <figure key={key}>
           <figcaption>{on[0].route}</figcaption>
-          <Line robots={on} />
+          <Line robots={on} pin={pin?.route === on[0].route ? pin.along_m : null} onPlace={(along_m) => onPlace({ route: on[0].route, along_m })} />
           <ul>
             {on.filter(stands).map((robot) => (
-              <li key={robot.name}>
-                <a href={`#robot-${robot.name}`}>{robot.name}</a> <Badge state={robot.state} />{' '}
-                {how(robot, robot.along_m, 'm')}{robot.detail && !robot.needs_person ? `: ${robot.detail}` : ''}
+              <li key={robot.name} className={robot.name === chosen ? 'chosen' : ''}>
+                <a href={`#fleet/${robot.name}`}>{robot.name}</a> <Badge state={robot.state} />{' '}
+                {how(robot, robot.along_m, 'm')}
               </li>
             ))}
           </ul>

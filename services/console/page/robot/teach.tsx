@@ -1,5 +1,6 @@
 import { useEffect, useId, useRef, useState, type KeyboardEvent, type PointerEvent } from 'react';
 import { drive, send, tell, type Answer, type Robot } from '../api';
+import { kName } from '../routes/labels';
 import { Slide } from './send';
 
 // A word each; a robot that hears none for 300 ms stands.
@@ -7,8 +8,6 @@ const kEvery_ms = 100;
 const kTurn_radps = 0.8;
 const kPad = 100;
 
-// As a route and its tags may be called.
-const kName = /^[A-Za-z0-9_.-]{1,64}$/;
 const kTaken = ['follow', 'wait', 'teach'];
 const kMostTags = 16;
 
@@ -181,6 +180,7 @@ export function Teaching({ robot, onAnswer }: { robot: Robot; onAnswer: (answer:
       <dl>
         <div><dt>Route</dt><dd>{robot.route}</dd></div>
         <div><dt>Taught</dt><dd>{robot.along_m === null ? '–' : `${robot.along_m.toFixed(1)} m`}</dd></div>
+        <div><dt>Speed</dt><dd>{robot.speed_mps.toFixed(2)} m/s</dd></div>
         <div><dt>Segments</dt><dd>{robot.segments}</dd></div>
         <div><dt>Features in view</dt><dd>{robot.features}</dd></div>
       </dl>

@@ -6,9 +6,10 @@ import { Ground } from '../map/ground';
 import { useMay } from '../me';
 import { Passing } from '../network/passing';
 import { Slide } from '../robot/send';
+import { Labels } from './labels';
 import { Download } from './transfers';
 
-type Asked = { action: RouteAction; revision: number; what: string };
+type Asked = { action: Asking; revision: number; what: string };
 
 const has = (text: ReactNode) => text || '–';
 
@@ -54,7 +55,8 @@ function Confirm({ asked, name, onDone, onLeave }: {
   );
 }
 
-const words: Record<RouteAction, string> = {
+type Asking = Extract<RouteAction, 'activate' | 'rollback' | 'retire' | 'delete'>;
+const words: Record<Asking, string> = {
   activate: 'Activate', rollback: 'Roll back', retire: 'Retire', delete: 'Delete',
 };
 
@@ -73,6 +75,7 @@ export function Revisions({ route }: { route: string }) {
   const [asked, setAsked] = useState<Asked | null>(null);
   const [answer, setAnswer] = useState<Answer | null>(null);
   const [ground, setGround] = useState(false);
+  const [labels, setLabels] = useState(false);
   const mayAdminister = useMay('administer');
   const look = useCallback(async () => {
     setPage(await get<RoutePage>('/api/routes', { name: route, sort: 'newest', limit: '200' }));
@@ -87,7 +90,7 @@ export function Revisions({ route }: { route: string }) {
   const carryOut = async ({ action, revision }: Asked) => {
     setAsked(null);
     setAnswer({ ok: true, text: `Sending ${words[action]} …` });
-    setAnswer(await editRoute(route, action, revision));
+    setAnswer(await editRoute(route, action, { revision }));
     await look();
   };
   return (
@@ -95,12 +98,19 @@ export function Revisions({ route }: { route: string }) {
       {back}
       <header className="routehead">
         <h2>{name}</h2>
+        {mayAdminister && <button aria-expanded={labels} onClick={() => setLabels(!labels)}>Rename, tag, describe …</button>}
         {mayAdminister && hasBefore(revisions) && (
           <button onClick={() => setAsked({ action: 'rollback', revision: 0, what: 'Robots will follow the revision before the active one.' })}>
             Roll back …
           </button>
         )}
       </header>
+      {labels && mayAdminister && (
+        <Labels key={`${name} ${revisions[0].tags.join()} ${revisions[0].description}`} of={revisions[0]} onAnswer={async (said) => {
+          setAnswer(said);
+          await look();
+        }} />
+      )}
       {asked && <Confirm key={asked.action + asked.revision} asked={asked} name={name} onDone={() => carryOut(asked)} onLeave={() => setAsked(null)} />}
       <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>{answer && (answer.ok ? '' : '⚠ ') + answer.text}</p>
       <div className="wide" tabIndex={0} role="region" aria-label={`Revisions of ${name}`}>

@@ -1,5 +1,7 @@
 import { useEffect, useState, type FormEvent } from 'react';
 import { get, type Command, type CommandPage, type Mission, type MissionPage } from '../api';
+import { AlertHistory } from '../alerts/alerts';
+import { Copy } from '../copy';
 import { age, when } from '../fleet';
 import { RunPage } from './run';
 import { RunList, RunsOf } from './run-list';
@@ -98,7 +100,7 @@ function Life({ mission }: { mission: Mission }) {
   ].sort((one, other) => one.unix_ms - other.unix_ms);
   return (
     <div className="life">
-      <p>Mission <code>{mission.mission}</code></p>
+      <p><Copy id={mission.mission} what="mission" /></p>
       <ol>
         {happened.map((each, i) => (
           <li key={i}><time>{at(each.unix_ms)}</time> {each.text}</li>
@@ -181,7 +183,7 @@ function CommandHistory({ now_ms }: { now_ms: number }) {
 }
 
 export function History({ open, now_ms }: { open: string; now_ms: number }) {
-  const kind = open === 'commands' || open === 'runs' ? open : 'missions';
+  const kind = ['commands', 'runs', 'alerts'].includes(open) ? open : 'missions';
   if (open.startsWith('run-')) return <RunPage key={open} id={open.slice('run-'.length)} />;
   return (
     <section aria-label="History" className="history">
@@ -190,10 +192,12 @@ export function History({ open, now_ms }: { open: string; now_ms: number }) {
         <a href="#history" aria-current={kind === 'missions' ? 'page' : undefined}>Missions</a>
         <a href="#history/commands" aria-current={kind === 'commands' ? 'page' : undefined}>Commands</a>
         <a href="#history/runs" aria-current={kind === 'runs' ? 'page' : undefined}>Runs</a>
+        <a href="#history/alerts" aria-current={kind === 'alerts' ? 'page' : undefined}>Alerts</a>
       </nav>
       {kind === 'missions' && <MissionHistory now_ms={now_ms} />}
       {kind === 'commands' && <CommandHistory now_ms={now_ms} />}
       {kind === 'runs' && <RunList now_ms={now_ms} />}
+      {kind === 'alerts' && <AlertHistory now_ms={now_ms} />}
     </section>
   );
 }

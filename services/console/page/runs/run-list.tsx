@@ -1,5 +1,6 @@
 import { useEffect, useState, type DragEvent, type FormEvent } from 'react';
 import { get } from '../api';
+import { Copy } from '../copy';
 import { age, when } from '../fleet';
 import { openLog, type RunsPage, type Summary } from './runs';
 
@@ -7,8 +8,9 @@ type Search = { robot: string; route: string; mission: string };
 
 const ended = (run: Summary) => run.state || (run.under_way ? 'under way' : 'breaks off');
 const began = (run: Summary) => run.began_unix_ms ?? run.written_unix_ms - 1000 * run.lasted_s;
+// Of a route that is still being taught a share would be of another length at each moment.
 const far = (run: Summary) =>
-  `${run.driven_m === null ? '' : `${run.driven_m.toFixed(1)} m, `}${Math.round(100 * run.progress)} %`;
+  (run.driven_m === null ? `${Math.round(100 * run.progress)} %` : `${run.driven_m.toFixed(run.driven_m < 1 ? 2 : 1)} m`);
 
 function useRuns(search: Search, skip: number) {
   const [runs, setRuns] = useState<Summary[]>([]);
@@ -104,7 +106,7 @@ export function RunList({ now_ms }: { now_ms: number }) {
                 <td data-label="Duration">{age(1000 * run.lasted_s)}</td>
                 <td data-label="Distance">{far(run)}</td>
                 <td data-label="Why">{run.reason}</td>
-                <td data-label="Mission">{run.mission && <code>{run.mission}</code>}</td>
+                <td data-label="Mission">{run.mission && <Copy id={run.mission} what="mission" />}</td>
               </tr>
             ))}
           </tbody>

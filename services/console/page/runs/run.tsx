@@ -1,3 +1,4 @@
+import { Copy } from '../copy';
 import { useEffect, useMemo, useRef, useState } from 'react';
 import { FramePicture } from './frame';
 import { RunStrip, StripLegend } from './run-strip';
@@ -139,7 +140,7 @@ export function RunPage({ id }: { id: string }) {
           <p><strong>{run.story.outcome}</strong></p>
           <p className="note">
             {run.story.how_far}.{started(run) && ` Began ${started(run)}.`}
-            {run.mission && <> Mission <code>{run.mission}</code>.</>}
+            {run.mission && <> <Copy id={run.mission} what="mission" /></>}
           </p>
           <p className="note">{run.story.who}</p>
           {run.story.missing.length > 0 && <p className="lacks">⚠ {run.story.missing.join(' ')}</p>}
