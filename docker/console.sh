@@ -6,6 +6,7 @@
 set -euo pipefail
 if [[ ${TRAILCAST_HTTP_HOST:-} != 127.0.0.1 && ${1:-} != users ]]; then
   umask 077
+  export TRAILCAST_ALERTS=${TRAILCAST_ALERTS:-/data/alerts.json}
   if [[ -z ${TRAILCAST_TLS_KEY:-} ]]; then
     export TRAILCAST_TLS_CERTIFICATE=/data/tls.pem TRAILCAST_TLS_KEY=/data/tls.key
     [[ -e $TRAILCAST_TLS_CERTIFICATE ]] || openssl req -x509 \
