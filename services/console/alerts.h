@@ -46,9 +46,10 @@ class Alerts {
   static constexpr std::size_t kMostOpen = 4096;
 
   // Takes what there is to see to now. Alerts about who is not in `subjects` stay as they are:
-  // nothing is known of them yet.
+  // nothing is known of them yet. So do those of before the console started about who is `unsure`:
+  // not all is known that they may be about.
   void Note(const std::vector<Cause>& causes, const std::set<std::string>& subjects,
-            std::int64_t unix_ms);
+            const std::set<std::string>& unsure, std::int64_t unix_ms);
   // All that are about a subject end: it is listed no more. False: none was.
   bool End(const std::string& subject, std::int64_t unix_ms);
   // kNotFound where no open alert has this id. One that is acknowledged stays so.

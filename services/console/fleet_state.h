@@ -89,6 +89,7 @@ class FleetState {
   struct ToSeeTo {
     std::vector<Cause> causes{};
     std::set<std::string> subjects{};
+    std::set<std::string> unsure{};  // of whose missions nothing was told yet
   };
   // Returns whom Tick and Forget have taken off the list since the last call.
   [[nodiscard]] std::vector<AgentId> TakeGone() { return std::exchange(gone_, {}); }

@@ -76,7 +76,7 @@ Result<Alert> AlertIn(const Json& json) {
 }  // namespace
 
 void Alerts::Note(const std::vector<Cause>& causes, const std::set<std::string>& subjects,
-                  std::int64_t unix_ms) {
+                  const std::set<std::string>& unsure, std::int64_t unix_ms) {
   using Name = std::pair<std::string_view, std::string_view>;
   const auto name_of = [](const Cause& cause) { return Name{cause.subject, cause.kind}; };
   std::map<Name, const Cause*> fresh;
@@ -93,7 +93,8 @@ void Alerts::Note(const std::vector<Cause>& causes, const std::set<std::string>&
         ++changes_;
       }
       fresh.erase(cause);
-    } else if (subjects.contains(alert.cause.subject)) {
+    } else if (subjects.contains(alert.cause.subject) &&
+               (alert.known || !unsure.contains(alert.cause.subject))) {
       EndOne(alert, unix_ms);
       --open;
     }

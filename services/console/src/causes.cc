@@ -100,6 +100,7 @@ FleetState::ToSeeTo FleetState::WhatToSeeTo(const Alerts& open) const {
     }
     const auto mission = latest.find(name);
     const auto* of_robot = mission == latest.end() ? nullptr : mission->second;
+    if (of_robot == nullptr && !missions_told_) found.unsure.insert(name.value());
     AddCauses(agent, StandingOf(agent, of_robot), open, found.causes);
   }
   return found;

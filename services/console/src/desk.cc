@@ -550,8 +550,8 @@ void Desk::SeeTo(Clock::time_point now) {
 
 void Desk::NoteAlerts(Clock::time_point now) {
   see_to_at_ = now + kSeeToEvery;
-  const auto [causes, subjects] = state_.WhatToSeeTo(alerts_);
-  alerts_.Note(causes, subjects, NowUnixMs());
+  const auto [causes, subjects, unsure] = state_.WhatToSeeTo(alerts_);
+  alerts_.Note(causes, subjects, unsure, NowUnixMs());
   for (const AgentId& gone : state_.TakeGone()) (void)alerts_.End(gone.value(), NowUnixMs());
 }
 

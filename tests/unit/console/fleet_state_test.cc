@@ -403,8 +403,8 @@ TEST_F(FleetStateTest, TellsWhatSomebodyHasToSeeToWhereAndWhy) {
   Alerts alerts;
   const auto to_see_to = [&] {
     state_.Tick(now_);
-    const auto [causes, subjects] = state_.WhatToSeeTo(alerts);
-    alerts.Note(causes, subjects, 1000);
+    const auto [causes, subjects, unsure] = state_.WhatToSeeTo(alerts);
+    alerts.Note(causes, subjects, unsure, 1000);
     std::vector<std::string> kinds;
     for (const Cause& cause : causes) kinds.push_back(cause.subject + " " + cause.kind);
     std::sort(kinds.begin(), kinds.end());
@@ -418,6 +418,11 @@ TEST_F(FleetStateTest, TellsWhatSomebodyHasToSeeToWhereAndWhy) {
   Hear(Status("server", AgentMode::kWaiting, "", AgentRole::kServer));
   Hear(Report("trip", 1, State::kUnderWay));
   EXPECT_THAT(to_see_to(), testing::IsEmpty());
+  Hear(Status("robot2", AgentMode::kWaiting));
+  EXPECT_EQ(state_.WhatToSeeTo(alerts).unsure, std::set<std::string>{"robot2"});
+  state_.AskedForMissions(17);
+  Hear(exchange::MissionReply{.client = AgentId("desk"), .request = 17});
+  EXPECT_EQ(state_.WhatToSeeTo(alerts).unsure, std::set<std::string>{}) << "it had none";
 
   status.mode = AgentMode::kWaiting;
   status.hold = AgentHold::kPaused;
