@@ -39,10 +39,12 @@ TEST(Story, BeginsWithWhoFollowedWhatAndHowItEnded) {
   SampleRun run;
   run.HandOver(0, 27).Frames(49).HandOver(1, 28).Frames(49).End("ARRIVED", "at the route's end");
   const std::string story = TellStory(run.Log(), false);
-  EXPECT_THAT(story, AllOf(HasSubstr("'hall' (5 segments, 10.00 m as the run began, taught by scout with webcam"),
-                           HasSubstr("followed by robot2 with wide 320x240, method default"),
-                           HasSubstr("ARRIVED: at the route's end"), HasSubstr("100 frames in"),
-                           HasSubstr("3.96 m driven")));
+  EXPECT_THAT(
+      story,
+      AllOf(HasSubstr("'hall' (5 segments, 10.00 m as the run began, taught by scout with webcam"),
+            HasSubstr("followed by robot2 with wide 320x240, method default"),
+            HasSubstr("ARRIVED: at the route's end"), HasSubstr("100 frames in"),
+            HasSubstr("3.96 m driven")));
   EXPECT_THAT(story, HasSubstr("sure of the path all the way"));
   EXPECT_THAT(story, Not(HasSubstr("breaks off")));
 }
