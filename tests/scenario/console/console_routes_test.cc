@@ -121,7 +121,7 @@ TEST_F(ConsoleRoutesTest, APersonFindsARouteAndChoosesItsRevision) {
   ASSERT_EQ(renamed.size(), 2U) << renamed.dump();
   EXPECT_EQ(renamed[0]["tags"], json({"night", "wet"}));
   EXPECT_EQ(renamed[1]["description"], "along the shelves");
-  EXPECT_THAT(browser_->Text(), HasSubstr("hallway"));
+  EXPECT_TRUE(browser_->WaitForText("hallway")) << browser_->Text();
 }
 
 TEST_F(ConsoleRoutesTest, APersonSeesWhatWasChangedSinceWhenAndByWhom) {
