@@ -54,7 +54,9 @@ class Robot {
     commanded_m_ = 0.0;
     for (int frame = 0; frame < kPatience_frames; ++frame) {
       sim::Observation seen = robot_->Step(last.command);
-      auto step = session.Observe({seen.stamp, std::move(seen.image), seen.odometry});
+      agent::Observation observation{seen.stamp, std::move(seen.image), seen.odometry};
+      observation.told = last.command;
+      auto step = session.Observe(observation);
       EXPECT_TRUE(step) << step.error().message;
       last = *step;
       commanded_m_ += std::abs(last.command.linear_mps) / 30.0;
