@@ -26,6 +26,8 @@ struct Sighting {
   // to be; or of somewhere else on the route.
   bool recognised = false;
   bool elsewhere = false;
+  // Some of that view is in the picture, if too little to steer by: nothing hides all of it.
+  bool glimpsed = false;
   double dt_s = 1.0 / 30.0;  // since the last frame
 };
 

@@ -31,6 +31,7 @@ constexpr double kLeft_m = 0.5;  // and from where it was left
 // Odometry that is doubted so far tells next to nothing; that is believed so far carries a robot.
 constexpr double kDoubted = 0.85;
 constexpr double kBelieved = 0.3;
+constexpr int kFewTracked = 8;  // the views are asked before these are missed
 constexpr double kThere = 0.5;  // of where the belief holds the robot to be; the route's units
 constexpr double kTurns_rad_per_m = 1.0;
 constexpr double kUnknownScale = 0.3;  // of a way
@@ -138,8 +139,8 @@ void ReplaySession::State::StartPlace(int width_px) {
   }
 }
 
-// A robot that is sure of its features asks what is recognised of the route only now and then, and
-// one that goes by that does so unless its picture stands.
+// A robot that is sure of its features asks what is recognised of the route only now and then, as
+// long as they are many, and one that goes by that does so unless its picture stands.
 bool ReplaySession::State::Locate(const Seen& seen) {
   if (!begun) StartPlace(seen.frame->width);
   FrameMotion along{seen.measured,           seen.told,  seen.flow, seen.dt_s,
@@ -150,7 +151,8 @@ bool ReplaySession::State::Locate(const Seen& seen) {
   }
   place.Move(along);
   const bool asks = ByViews() ? place.HasMoved() : steers_by_views;
-  const bool looks = asks || standing.trust != Trust::kSure || place.LookIsDue();
+  const bool few = std::ssize(eyes.tracker().Current()) < kFewTracked;
+  const bool looks = asks || few || standing.trust != Trust::kSure || place.LookIsDue();
   if (looks) place.LookAt(*seen.followed_in, seen.frame->width);
   return looks;
 }

@@ -25,6 +25,7 @@ class ConfidenceTest : public ::testing::Test {
                     left_sigma_m_,
                     std::exchange(carried_off_, false)};
       seen.recognised = std::exchange(recognised_, false);
+      seen.glimpsed = std::exchange(glimpsed_, false);
       seen.dt_s = dt_s_;
       verdict = confidence_.Judge(seen, moved);
     }
@@ -46,6 +47,7 @@ class ConfidenceTest : public ::testing::Test {
   int vanish_ = 0;
   bool carried_off_ = false;  // in the next frame
   bool recognised_ = false;   // the same
+  bool glimpsed_ = false;     // the same
   double dt_s_ = 1.0 / 30.0;
 };
 
@@ -175,6 +177,16 @@ TEST_F(ConfidenceTest, WhoeverCoversAViewThatIsRecognisedForAMomentIsStillThere)
   recognised_ = true;
   EXPECT_EQ(See(2).trust, Trust::kBlind);
   EXPECT_EQ(See(1, 60).trust, Trust::kCovered);
+}
+
+TEST_F(ConfidenceTest, AViewOfWhichSomeIsStillThereWasNotCovered) {
+  See(30);
+  Vanish(28);
+  glimpsed_ = true;
+  EXPECT_EQ(See(2).trust, Trust::kBlind) << "smeared, say";
+  EXPECT_EQ(See(2).trust, Trust::kCovered);
+  glimpsed_ = true;
+  EXPECT_EQ(See(2).trust, Trust::kBlind);
 }
 
 TEST_F(ConfidenceTest, IsLostWhenTheViewStaysCovered) {

@@ -141,7 +141,7 @@ Verdict Confidence::Judge(const Sighting& seen,
   covered_ = covered_ || (gone && sure_once_ && moved && CoveredNow(seen));
   // Whatever hides the segment's features does not hide the view yet. What was seen before is not
   // forgotten: somebody who steps in front of the camera takes a moment to cover all of it.
-  if (seen.recognised || seen.elsewhere) covered_ = false;
+  if (seen.recognised || seen.glimpsed || seen.elsewhere) covered_ = false;
   if (covered_) since_covered_s_ = 0.0;
   const bool by_distance = moved.has_value() && sure_once_;
   const Trust trust = Decide(seen, by_distance);
