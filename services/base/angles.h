@@ -12,7 +12,7 @@ namespace trailcast {
   return radians * 180.0 / std::numbers::pi;
 }
 
-// The same direction in (-pi, pi].
+// Returns the same direction in (-pi, pi].
 [[nodiscard]] inline double WrapAngle(double radians) {
   const double wrapped = std::remainder(radians, 2.0 * std::numbers::pi);
   return wrapped <= -std::numbers::pi ? wrapped + 2.0 * std::numbers::pi : wrapped;

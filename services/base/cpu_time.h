@@ -4,7 +4,7 @@
 
 namespace trailcast {
 
-// Of the calling thread.
+// Returns the processor time that the calling thread has used.
 [[nodiscard]] inline double ThreadCpuMs() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

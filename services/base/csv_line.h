@@ -13,18 +13,18 @@
 
 namespace trailcast {
 
-// In quotes where it has to be.
+// Returns `text` as one cell, quoted if a comma, a quote or a line's end in it requires that.
 [[nodiscard]] std::string CsvText(const std::string& text);
 
-// The cells of one line; nothing where a quote is not closed.
+// Returns the cells of one line, or nothing if a quote is not closed.
 [[nodiscard]] std::optional<std::vector<std::string>> CsvCells(const std::string& line);
 
-// The names of a file's columns, by its first line, without blanks about them. Empty cells where
-// the file is empty.
+// Reads a file's first line as the names of its columns, without the blanks around them. An empty
+// file gives one empty cell.
 [[nodiscard]] std::vector<std::string> CsvHeader(std::istream& file);
 
-// One line by the names of its columns. The first cell that is not what it should be is kept as
-// the line's trouble.
+// Reads one line's cells by the names of their columns. It keeps the first cell that cannot be read
+// as the line's trouble.
 class CsvLine {
  public:
   CsvLine(const std::vector<std::string>& names, const std::vector<std::string>& cells);
@@ -34,7 +34,7 @@ class CsvLine {
   void Read(const std::string& name, Number& number) {
     Parse(name, cells_[name], number);
   }
-  // Numbers with blanks between.
+  // Reads numbers that are separated by blanks.
   void ReadAll(const std::string& name, std::vector<double>& numbers);
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
@@ -49,8 +49,8 @@ class CsvLine {
   std::string trouble_;
 };
 
-// Each line of a file whose first line has to be `header`. `what`: for people, what such a file is.
-// kInvalidArgument says which line is not what it should be, and why.
+// Calls `read` for each line of a file whose first line has to be `header`. Errors name such a file
+// as `what` does. kInvalidArgument says which line cannot be read, and why.
 [[nodiscard]] Result<void> ReadCsvTable(const std::filesystem::path& file,
                                         const std::string& header, const std::string& what,
                                         const std::function<void(CsvLine&)>& read);

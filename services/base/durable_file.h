@@ -10,15 +10,16 @@
 
 namespace trailcast {
 
-// Replaces the file at once, whole, and so that it outlasts a loss of power: who reads it meanwhile
-// gets the old one. `mode`: of the new file, less the umask. The error names the file.
+// Replaces the whole file in one step that outlasts a loss of power: a program that reads it
+// meanwhile gets the old contents. The new file has `mode`, less the umask. The error names the
+// file.
 [[nodiscard]] Result<void> ReplaceFile(const std::filesystem::path& file, const std::string& text,
                                        mode_t mode = 0644);
 
-// On the disk when it returns: what is in a file, or which names a folder has.
+// Returns once a file's contents, or the names in a folder, are on the disk.
 [[nodiscard]] std::error_code SyncToDisk(const std::filesystem::path& path);
 
-// In which the file is, or is to be.
+// Returns the folder that holds the file, or will hold it.
 [[nodiscard]] std::filesystem::path FolderOf(const std::filesystem::path& file);
 
 }  // namespace trailcast

@@ -6,7 +6,8 @@
 
 namespace trailcast {
 
-// Names are whatever users' files have; in a file's name only what every shell leaves alone.
+// Replaces every character of a user's name that some shell treats specially, so that the text can
+// be part of a file's name.
 [[nodiscard]] inline std::string ForFileName(std::string text) {
   std::replace_if(
       text.begin(), text.end(),

@@ -5,7 +5,8 @@
 
 namespace trailcast {
 
-// The calling thread alone is of this niceness from now on: 19 is what is left over by all others.
+// Sets the niceness of the calling thread alone. At 19 it gets only what all other threads leave
+// over.
 inline void GiveWay(int niceness) {
   (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), niceness);
 }

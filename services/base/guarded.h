@@ -9,9 +9,9 @@
 
 namespace trailcast {
 
-// Runs a thread's body so that nothing it throws ends the program: a robot whose program ends that
-// way has been told by nobody to stand. `body` returns a Result, or nothing; what it throws becomes
-// an error that names the thread, for its owner to end the run with.
+// Runs a thread's body so that no exception ends the program: a program that dies cannot tell its
+// robot to stop. `body` returns a Result, or nothing. An exception becomes an error that names the
+// thread, with which the thread's owner ends the run.
 template <typename Body>
 [[nodiscard]] auto Guarded(std::string_view thread, Body&& body) {
   using Returned = std::invoke_result_t<Body>;

@@ -8,7 +8,7 @@
 
 namespace trailcast {
 
-// A value that cannot be mistaken for another of the same representation.
+// A value that the compiler does not confuse with another one of the same representation.
 template <typename Tag, typename Value>
 class Id {
  public:
@@ -22,25 +22,27 @@ class Id {
   Value value_{};
 };
 
-// Given once when teaching begins, never reused: 32 lower-case hexadecimal digits.
+// A route's identity, given once when teaching begins and never reused: 32 lower-case hexadecimal
+// digits.
 using RouteId = Id<struct RouteIdTag, std::string>;
-// One teaching of a route, drawn at random when it begins, so that no two robots make the same: 1
-// to 2^63 - 1.
+// One teaching of a route. It is drawn at random when teaching begins, so that no two robots draw
+// the same: 1 to 2^63 - 1.
 using TeachingId = Id<struct TeachingIdTag, std::uint64_t>;
-// What people call a teaching by: 1, 2, .. in the order in which teachings of the route arrived at
-// the server. 0: none was given yet.
+// The number by which people name a teaching: 1, 2, .. in the order in which a route's teachings
+// arrived at the server. 0 means that none was given yet.
 using RevisionNumber = Id<struct RevisionNumberTag, std::uint32_t>;
-// Position of a segment in its route, from 0.
+// The position of a segment in its route, from 0.
 using SegmentIndex = Id<struct SegmentIndexTag, std::uint32_t>;
-// An agent's (or server's) name, unique in the fleet: [A-Za-z0-9_.-], at most 64 characters.
+// The name of an agent or a server, unique in the fleet: 1 to 64 of [A-Za-z0-9_.-].
 using AgentId = Id<struct AgentIdTag, std::string>;
 
-// 32 hexadecimal digits from the system's random source.
+// Draws 32 hexadecimal digits from the system's random source.
 [[nodiscard]] RouteId MakeRouteId();
-// From the system's random source.
+// Draws from the system's random source.
 [[nodiscard]] TeachingId MakeTeachingId();
 
-// True for names made of 1 to 64 of [A-Za-z0-9_.-]: agents, routes and servers are named so.
+// Says whether a name is made of 1 to 64 of [A-Za-z0-9_.-], as the names of agents, routes and
+// servers are.
 [[nodiscard]] bool IsValidName(const std::string& name);
 
 }  // namespace trailcast

@@ -10,14 +10,15 @@
 
 namespace trailcast {
 
-// A bounded queue from one thread to one other, without locks: what the control loop and the link
-// thread trade through. Neither end ever waits for the other.
+// A bounded queue without locks, from one thread to one other. It connects the control loop with
+// the link thread, so that neither ever waits for the other.
 template <typename T>
 class Mailbox {
  public:
   explicit Mailbox(std::size_t capacity) : slots_(capacity + 1) {}
 
-  // The sender's thread only. False, with `item` untouched, when the queue is full.
+  // Adds an item; the sender's thread alone may call this. A full queue returns false and leaves
+  // `item` untouched.
   [[nodiscard]] bool TryPut(T&& item) {
     const std::size_t write = write_.load(std::memory_order_relaxed);
     const std::size_t next = (write + 1) % slots_.size();
@@ -27,7 +28,7 @@ class Mailbox {
     return true;
   }
 
-  // The receiver's thread only.
+  // Takes the oldest item; the receiver's thread alone may call this.
   [[nodiscard]] std::optional<T> TryGet() {
     const std::size_t read = read_.load(std::memory_order_relaxed);
     if (read == write_.load(std::memory_order_acquire)) return std::nullopt;
@@ -38,7 +39,7 @@ class Mailbox {
   }
 
  private:
-  std::vector<T> slots_;  // one more than fits, so that full and empty differ
+  std::vector<T> slots_;  // one slot more than fits, so that full and empty differ
   std::atomic<std::size_t> read_{0};
   std::atomic<std::size_t> write_{0};
 };
@@ -49,7 +50,7 @@ class Bell {
   void Ring() {
     if (!rung_.exchange(true)) semaphore_.release();
   }
-  // True when it was rung since the last time it returned true.
+  // Returns true if it was rung since it last returned true.
   bool Wait(std::chrono::milliseconds at_most) {
     if (!semaphore_.try_acquire_for(at_most)) return false;
     rung_.exchange(false);

@@ -6,7 +6,7 @@
 
 namespace trailcast {
 
-// Of an even number the upper one. Not of nothing.
+// Returns the median of at least one value; the upper middle one if their number is even.
 [[nodiscard]] inline double Median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -8,8 +8,8 @@
 
 namespace trailcast {
 
-// A map of bounded size, for what strangers can make up keys of: beyond `most` entries the one goes
-// that was not touched for longest.
+// A map of bounded size, for keys that strangers can make up. Beyond `most` entries it drops the
+// one that was untouched for longest.
 template <typename Key, typename Value>
 class NewestMap {
  public:
@@ -23,8 +23,8 @@ class NewestMap {
     const auto found = where_.find(key);
     return found == where_.end() ? nullptr : &found->second->second;
   }
-  // The key's value, made if there is none: the newest entry now. `gone` is given the key and the
-  // value of the entry that had to go for it.
+  // Returns the key's value, which is made if there is none, as the newest entry. `gone` receives
+  // the key and the value of an entry that had to be dropped for it.
   template <typename Gone>
   Value& Touch(const Key& key, const Gone& gone) {
     if (const auto found = where_.find(key); found != where_.end()) {
@@ -51,10 +51,10 @@ class NewestMap {
     where_.erase(found);
   }
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
-  // Keys and values, the one that was touched last at the end.
+  // The entry that was touched last comes last.
   [[nodiscard]] auto begin() const { return entries_.begin(); }
   [[nodiscard]] auto end() const { return entries_.end(); }
-  // Values may be changed, keys may not.
+  // Values may be changed, but keys may not.
   [[nodiscard]] auto begin() { return entries_.begin(); }
   [[nodiscard]] auto end() { return entries_.end(); }
 

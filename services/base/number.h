@@ -7,7 +7,8 @@
 
 namespace trailcast {
 
-// The number that all of `text` is; no blanks, no plus, and "inf" and "nan" are numbers too.
+// Reads all of `text` as one number. Blanks and a plus sign are refused; "inf" and "nan" are
+// numbers.
 template <typename Number>
 [[nodiscard]] std::optional<Number> ParseNumber(std::string_view text) {
   Number number{};
@@ -17,19 +18,20 @@ template <typename Number>
   return number;
 }
 
-// The same, from least to most.
+// Reads the number, and returns nothing if it is not between `least` and `most`.
 [[nodiscard]] inline std::optional<double> ParseNumberWithin(std::string_view text, double least,
                                                              double most) {
   const auto number = ParseNumber<double>(text);
   return number && *number >= least && *number <= most ? number : std::nullopt;
 }
 
-// Of "FROM..TO", either of which may be left out.
+// The two ends of "FROM..TO"; either may be left out.
 struct NumberRange {
   std::optional<double> from;
   std::optional<double> to;
 };
-// What all of `text` is, its numbers from least to most; in whatever order.
+// Reads all of `text` as a range of numbers between `least` and `most`. Its ends may be in either
+// order.
 [[nodiscard]] inline std::optional<NumberRange> ParseRange(std::string_view text, double least,
                                                            double most) {
   const std::size_t dots = text.find("..");
@@ -45,7 +47,7 @@ struct NumberRange {
   return range;
 }
 
-// The same as ParseNumber; false, and `number` as it was, if `text` is none.
+// Reads as ParseNumber does. If `text` is no number, it returns false and leaves `number` alone.
 template <typename Number>
 [[nodiscard]] bool ReadNumber(std::string_view text, Number& number) {
   const auto parsed = ParseNumber<Number>(text);

@@ -4,10 +4,10 @@
 
 namespace trailcast {
 
-// Commands of a member run beside its agent, and each other, under a name with their process's
-// number behind: "desk-p4711". No member may be named so.
+// Returns a member's name followed by a process's number, such as "desk-p4711". A member's commands
+// run under such names beside its agent and beside each other. No member may be named so.
 [[nodiscard]] std::string ProcessName(const std::string& member, long process);
-// The member of such a name; any other name as it is.
+// Returns the member that such a name belongs to; any other name stays as it is.
 [[nodiscard]] std::string WithoutProcess(const std::string& name);
 
 }  // namespace trailcast

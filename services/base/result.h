@@ -8,19 +8,20 @@
 
 namespace trailcast {
 
-// What kind of thing went wrong, for callers that react differently. The message is for people.
+// The kind of a failure, for callers that react differently. The message is for people.
 enum class ErrorCode {
-  kInvalidArgument,  // what the caller or the user gave cannot be used
-  kNotFound,         // no such file, route, segment
-  kCorrupt,          // bytes that fail their digest or cannot be decoded
-  kConflict,         // contradicts what is already there (same segment, other bytes; name taken)
-  kUnavailable,      // disk full, no server, network down: may work later
+  kInvalidArgument,  // the caller or the user gave something that cannot be used
+  kNotFound,         // there is no such file, route or segment
+  kCorrupt,          // bytes do not match their digest or cannot be decoded
+  kConflict,         // this contradicts what exists (same segment with other bytes; name taken)
+  kUnavailable,      // the disk is full, no server answers, ..: it may work later
   kInternal,         // a library refused something that should have worked
 };
 
 struct Error {
   ErrorCode code = ErrorCode::kInternal;
-  // What was wrong, what was expected, what to do. One line, no final newline.
+  // The message says what was wrong, what was expected and what to do, in one line without a final
+  // newline.
   std::string message;
 };
 
@@ -33,7 +34,7 @@ template <typename... Args>
   return tl::unexpected<Error>(Error{code, fmt::format(format, std::forward<Args>(args)...)});
 }
 
-// Passes an error on, with what was being done put before it.
+// Returns the error with a description of the action that failed before its message.
 [[nodiscard]] inline tl::unexpected<Error> Wrap(const Error& error, const std::string& doing) {
   return tl::unexpected<Error>(Error{error.code, doing + ": " + error.message});
 }

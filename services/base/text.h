@@ -5,16 +5,17 @@
 
 namespace trailcast {
 
-// Length of the well-formed UTF-8 character at the beginning of `text`, which is not empty; 0 if
-// there is none (truncated, overlong, a surrogate, beyond U+10FFFF). The Unicode standard, table
-// 3-7.
+// Returns the length of the well-formed UTF-8 character that begins `text`, which is not empty, or
+// 0 if there is none (truncated, overlong, a surrogate, beyond U+10FFFF). Source: the Unicode
+// standard, table 3-7.
 [[nodiscard]] std::size_t CharacterLength(std::string_view text);
 
-// Valid UTF-8 of one line: no control characters, so that what a stranger sent can be printed on a
-// terminal, and at most `max_bytes` long.
+// Says whether `text` is one line of valid UTF-8 without control characters and at most `max_bytes`
+// long, so that a stranger's text can be printed on a terminal.
 [[nodiscard]] bool IsPlainText(std::string_view text, std::size_t max_bytes);
 
-// `text` made to pass IsPlainText: what does not fit is replaced by spaces or cut off.
+// Makes `text` pass IsPlainText: it replaces characters that do not fit by spaces and cuts the rest
+// off.
 [[nodiscard]] std::string PlainText(std::string_view text, std::size_t max_bytes);
 
 }  // namespace trailcast

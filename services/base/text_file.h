@@ -7,11 +7,11 @@
 
 namespace trailcast {
 
-// What a text file that a person gives says, whatever program wrote it: its lines end with LF, the
-// mark (BOM) that some begin with is no part of it. kNotFound, kUnavailable for a file that cannot
-// be read, kInvalidArgument for one that is no text in UTF-8; the error names the file.
+// Reads a text file that a person gives, whatever program wrote it: lines end with LF in the
+// result, and a byte order mark at the beginning is dropped. Errors: kNotFound, kUnavailable for a
+// file that cannot be read, kInvalidArgument for one that is no UTF-8 text; they name the file.
 [[nodiscard]] Result<std::string> ReadTextFile(const std::filesystem::path& file);
-// The same of bytes that were read already; the error names nothing.
+// Does the same with bytes that were read already; the error names no file.
 [[nodiscard]] Result<std::string> PlainText(std::string bytes);
 
 // Replaces the file's contents. The error names the file.

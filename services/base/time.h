@@ -4,8 +4,8 @@
 
 namespace trailcast {
 
-// When a sensor took its sample, from an arbitrary zero of that device (a recording's or the
-// simulator's start, a robot's boot). Only differences mean anything.
+// The moment at which a sensor took its sample, from an arbitrary zero of that device (a
+// recording's or the simulator's start, a robot's boot). Only differences have a meaning.
 using SensorTime = std::chrono::nanoseconds;
 
 [[nodiscard]] inline double Seconds(std::chrono::nanoseconds duration) {

@@ -7,15 +7,15 @@
 
 namespace trailcast {
 
-// The same trouble is told once, and again after a while. No clock.
+// Decides that the same trouble is reported once, and again only after a while. It reads no clock.
 class ToldLately {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  static constexpr std::size_t kMost = 1000;  // strangers can make up things to tell of
+  static constexpr std::size_t kMost = 1000;  // strangers can make up things to report
 
   explicit ToldLately(std::chrono::milliseconds again) : again_(again) {}
 
-  // `what` is to be told now, and counts as told then.
+  // Returns true if `what` is to be reported now, and then remembers it as reported.
   [[nodiscard]] bool IsDue(const std::string& what, Time now) {
     if (told_at_.size() >= kMost) told_at_.clear();
     const auto [at, is_first] = told_at_.try_emplace(what, now);

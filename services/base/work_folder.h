@@ -7,7 +7,7 @@
 
 namespace trailcast {
 
-// A fresh folder under the system's temporary one, removed with all that is in it when this goes,
+// A fresh folder under the system's temporary one. The destructor removes it with its contents
 // unless it is to be kept.
 class WorkFolder {
  public:
@@ -25,7 +25,7 @@ class WorkFolder {
  private:
   explicit WorkFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
-  std::filesystem::path path_;  // empty: moved from
+  std::filesystem::path path_;  // empty after a move
   bool keep_ = false;
 };
 

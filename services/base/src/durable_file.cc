@@ -11,7 +11,7 @@ namespace {
 std::error_code LastError() { return {errno, std::generic_category()}; }
 
 std::error_code Sync(int descriptor) {
-  // EINVAL: some network file systems do not know this of folders.
+  // Some network file systems cannot synchronise folders and answer EINVAL.
   if (fsync(descriptor) == 0 || errno == EINVAL) return {};
   return LastError();
 }
@@ -37,7 +37,7 @@ std::error_code WriteFresh(const std::string& fresh, const std::string& text, mo
 }  // namespace
 
 Result<void> ReplaceFile(const std::filesystem::path& file, const std::string& text, mode_t mode) {
-  // Several programs may write the same file: each does under a name of its own.
+  // Several programs may write the same file, so each writes to a name of its own.
   const std::string fresh = fmt::format("{}.{}.new", file.string(), getpid());
   std::error_code error = WriteFresh(fresh, text, mode);
   if (!error && rename(fresh.c_str(), file.c_str()) != 0) error = LastError();

@@ -27,7 +27,7 @@ std::optional<std::tm> LocalParts(std::int64_t unix_ms) {
   return parts;
 }
 
-// Fields beyond their range count over, as in "the 0th of March".
+// Fields beyond their range carry over, as in "the 0th of March".
 std::int64_t UnixMsOf(std::tm parts) {
   parts.tm_isdst = -1;
   return static_cast<std::int64_t>(std::mktime(&parts)) * 1000;
@@ -39,7 +39,7 @@ std::tm Midnight(std::tm parts, int days_before = 0) {
   return parts;
 }
 
-// "2026-11-23" by '-', "09:15" by ':': so many numbers, all of the text.
+// Reads all of `text` as kCount numbers: "2026-11-23" with '-' between, "09:15" with ':'.
 template <std::size_t kCount>
 std::optional<std::array<int, kCount>> Numbers(std::string_view text, char between) {
   std::array<int, kCount> numbers{};
@@ -54,7 +54,7 @@ std::optional<std::array<int, kCount>> Numbers(std::string_view text, char betwe
   return numbers;
 }
 
-// False: there is no such day, or `text` is none.
+// Returns false if `text` is no date, or a day that does not exist.
 bool SetDate(std::string_view text, std::tm& parts) {
   constexpr int kFirstYear = 1970;
   constexpr int kLastYear = 9999;

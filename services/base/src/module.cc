@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where it is, or else where it would be if it had been built here.
+// Returns where the library is, or the path beside the program if it is nowhere.
 fs::path Find(const std::string& library) {
   std::error_code error;
   const fs::path programs = fs::read_symlink("/proc/self/exe", error).parent_path();

@@ -23,7 +23,7 @@ std::optional<double> Number(const std::string& text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-// Where each of the columns is in the header; nothing if one is missing.
+// Returns each column's place in the header, or nothing if one is missing.
 std::optional<std::vector<std::size_t>> PlacesOf(const std::vector<std::string>& names,
                                                  const std::vector<std::string>& columns,
                                                  const std::vector<std::string>& optional) {
@@ -38,7 +38,7 @@ std::optional<std::vector<std::size_t>> PlacesOf(const std::vector<std::string>&
   return places;
 }
 
-// For messages: what is no table at all may have lines of any length.
+// A file that is no table may have lines of any length, which a message must not repeat.
 std::string Clipped(const std::string& text) {
   constexpr std::size_t kMostShown = 200;
   return text.size() <= kMostShown ? text : text.substr(0, kMostShown) + "...";

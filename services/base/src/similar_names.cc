@@ -37,7 +37,7 @@ Candidate Compare(const std::string& wanted, const std::string& name) {
 std::size_t EditDistance(const std::string& a, const std::string& b) {
   const std::string from = LowerCase(a);
   const std::string to = LowerCase(b);
-  // row[j]: distance between the letters of `from` seen so far and the first j of `to`.
+  // row[j] is the distance between the letters of `from` seen so far and the first j of `to`.
   std::vector<std::size_t> row(to.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -71,7 +71,7 @@ std::string DidYouMean(const std::string& wanted, std::vector<std::string> names
   constexpr std::size_t kMostMeant = 2;
   std::string meant;
   for (const std::string& name : MostSimilar(wanted, std::move(names), kMostMeant)) {
-    // A third of its letters mistyped is another name.
+    // A name with more than a third of its letters changed is another name.
     if (EditDistance(wanted, name) > std::max<std::size_t>(1, wanted.size() / 3)) continue;
     meant += (meant.empty() ? "; did you mean '" : " or '") + name + "'";
   }

@@ -6,7 +6,8 @@
 namespace trailcast {
 namespace {
 
-// C0 controls and DEL, and the C1 controls (U+0080..U+009F), which some terminals obey as well.
+// These are the C0 controls and DEL, and the C1 controls (U+0080..U+009F), which some terminals
+// obey as well.
 bool IsControl(std::string_view character) {
   const auto lead = static_cast<std::uint8_t>(character[0]);
   if (character.size() == 1) return lead < 0x20 || lead == 0x7F;
