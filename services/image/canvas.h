@@ -16,7 +16,7 @@ struct PixelPoint {
   double y = 0.0;
 };
 
-// A picture to draw on: anti-aliased lines, marks and text. Knows nothing of what it shows.
+// A picture to draw on, with anti-aliased lines, marks and text.
 class Canvas {
  public:
   Canvas(int width, int height, Color background);
@@ -24,15 +24,15 @@ class Canvas {
   void Line(const std::vector<PixelPoint>& points, Color color, double width_px,
             bool dashed = false);
   void FillPolygon(const std::vector<PixelPoint>& corners, Color color);
-  // Upright, between two opposite corners.
+  // A box is upright and given by two opposite corners.
   void FillBox(PixelPoint from, PixelPoint to, Color color);
   void OutlineBox(PixelPoint from, PixelPoint to, Color color, double width_px);
   void Disc(PixelPoint center, double radius_px, Color color);
   void Cross(PixelPoint center, double radius_px, Color color, double width_px);
-  // Baseline-left at `at`; height of a capital letter in pixels.
+  // Draws text whose baseline begins at `at`; `height_px` is the height of a capital letter.
   void Text(const std::string& text, PixelPoint at, double height_px, Color color);
   [[nodiscard]] static double TextWidth(const std::string& text, double height_px);
-  // Copies `picture` with its upper left corner at (x, y), scaled to the given size.
+  // Copies `picture`, scaled to the given size, with its upper left corner at (x, y).
   void Paste(const RgbImage& picture, int x, int y, int width, int height);
 
   [[nodiscard]] const RgbImage& picture() const { return picture_; }

@@ -7,9 +7,9 @@
 
 namespace trailcast::image {
 
-// Whether what a stranger sent is a JPEG or a PNG that says it has at most `most_pixels`, and no
-// more work for its decoder than such a picture is; kInvalidArgument says what is wrong. Nothing is
-// decoded.
+// Checks, without decoding, that a stranger's bytes are a JPEG or a PNG that promises at most
+// `most_pixels`, and that decoding it costs no more than such a picture does. kInvalidArgument says
+// what is wrong.
 [[nodiscard]] Result<void> CheckPicture(std::span<const std::uint8_t> bytes,
                                         std::uint64_t most_pixels);
 

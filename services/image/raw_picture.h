@@ -10,8 +10,8 @@
 
 namespace trailcast::image {
 
-// A picture as a camera's driver hands it over; `encoding` is a name of ROS's
-// sensor_msgs/image_encodings. Does not own its bytes.
+// A picture as a camera's driver hands it over, without owning its bytes. `encoding` is a name from
+// ROS's sensor_msgs/image_encodings.
 struct RawPicture {
   std::uint32_t width_px = 0;
   std::uint32_t height_px = 0;
@@ -21,9 +21,9 @@ struct RawPicture {
   std::span<const std::uint8_t> bytes;
 };
 
-// The next picture of a run: of 16 bits a pixel those that the run's pictures use.
-// kInvalidArgument for an encoding that is not understood (the message lists those that are), a
-// picture of no size; kCorrupt for rows that overlap or fewer bytes than the rows need.
+// Converts the next picture of a run. Pictures of 16 bits a pixel keep the bits that the run uses.
+// An encoding that is not understood (the message lists those that are) and a picture without a
+// size are kInvalidArgument. Rows that overlap and missing bytes are kCorrupt.
 [[nodiscard]] Result<GrayImage> GrayFromRaw(const RawPicture& picture, PictureRun& run);
 
 }  // namespace trailcast::image

@@ -8,11 +8,11 @@
 namespace trailcast::image {
 namespace {
 
-// OpenCV draws at fixed-point coordinates: 4 fractional bits are a 16th of a pixel.
+// OpenCV draws at fixed-point coordinates; 4 fractional bits are a 16th of a pixel.
 constexpr int kShift = 4;
 constexpr double kShiftScale = 1 << kShift;
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-// Height of a capital in this font at scale 1, in pixels, as its glyph table has it.
+// The height in pixels of a capital in this font at scale 1, from its glyph table.
 constexpr double kCapitalHeight_px = 21.0;
 constexpr double kDash_px = 8.0;
 
@@ -33,7 +33,7 @@ PixelPoint Mix(PixelPoint from, PixelPoint to, double share) {
   return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
 }
 
-// Draws every second stretch of kDash_px; `phase_px` carries the pattern round corners.
+// Draws every second piece of kDash_px; `phase_px` carries the pattern round corners.
 void DashedStretch(cv::Mat& view, PixelPoint from, PixelPoint to, const cv::Scalar& color,
                    int thickness, double& phase_px) {
   const double length = std::hypot(to.x - from.x, to.y - from.y);
@@ -45,7 +45,7 @@ void DashedStretch(cv::Mat& view, PixelPoint from, PixelPoint to, const cv::Scal
       cv::line(view, ToFixed(Mix(from, to, at / length)), ToFixed(Mix(from, to, end / length)),
                color, thickness, cv::LINE_AA, kShift);
     }
-    // A step of rounding size would never end the loop.
+    // A step as small as a rounding error would never end the loop.
     const double step = std::max(end - at, 1e-6);
     phase_px += step;
     at += step;

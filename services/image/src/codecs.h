@@ -11,9 +11,9 @@
 
 namespace trailcast::image {
 
-// What files.h offers, done, but for writing JPEG (jpeg.cc). OpenCV's codecs bring two hundred
-// libraries with them (GDAL, FFmpeg, GStreamer), 240 MB, which a robot that drives has no use for.
-// So they are in a library of their own beside the programs, which files.cc loads when the first
+// The implementation of files.h, without writing JPEG (jpeg.cc). OpenCV's codecs bring two hundred
+// libraries with them (GDAL, FFmpeg, GStreamer), 240 MB, which a driving robot has no use for. They
+// are therefore in a library of their own beside the programs, which files.cc loads when the first
 // file is read or written.
 class Codecs {
  public:
@@ -38,5 +38,5 @@ inline constexpr const char* kCodecsSymbol = "trailcast_codecs";
 
 }  // namespace trailcast::image
 
-// What the library exports under that name; lives as long as the process.
+// The library exports its codecs under this name; they live as long as the process.
 extern "C" const trailcast::image::Codecs* trailcast_codecs();

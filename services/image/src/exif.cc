@@ -12,7 +12,7 @@ constexpr std::size_t kEntryBytes = 12;
 constexpr std::uint64_t kOrientationTag = 0x0112;
 constexpr std::uint64_t kShort = 3;
 
-// Numbers of a TIFF, in its byte order; 0 beyond its end.
+// Reads the numbers of a TIFF in its byte order; beyond its end they are 0.
 class Tiff {
  public:
   explicit Tiff(std::span<const std::uint8_t> bytes)
@@ -35,7 +35,7 @@ class Tiff {
 
 }  // namespace
 
-// Exif 2.3, 4.6.2: a TIFF, whose first directory has the tag.
+// Exif 2.3, section 4.6.2: the segment holds a TIFF whose first directory has the tag.
 std::optional<int> ExifOrientation(std::span<const std::uint8_t> app1) {
   if (app1.size() < kExifName.size() ||
       !std::equal(kExifName.begin(), kExifName.end(), app1.begin())) {

@@ -20,7 +20,7 @@ Result<const Codecs*> Load() {
   return reinterpret_cast<decltype(&trailcast_codecs)>(*symbol)();
 }
 
-// Loaded once; it stays until the process ends.
+// The library is loaded once and stays until the process ends.
 const Result<const Codecs*>& Loaded() {
   static const Result<const Codecs*> codecs = Load();
   return codecs;

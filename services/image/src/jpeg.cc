@@ -1,7 +1,8 @@
-// JPEG, written by libjpeg itself: robots have it, but not OpenCV's codecs (codecs.h).
+// This file writes JPEG with libjpeg itself, because robots have that library but not OpenCV's
+// codecs (codecs.h).
 #include <cstddef>
 #include <cstdio>
-// What it includes must come before.
+// jpeglib.h needs these headers before it.
 #include <jpeglib.h>
 
 #include <csetjmp>
@@ -14,21 +15,21 @@ namespace trailcast::image {
 namespace {
 
 struct Errors {
-  jpeg_error_mgr manager;  // first: libjpeg knows no more of it
+  jpeg_error_mgr manager;  // must come first, because libjpeg sees only this member
   std::jmp_buf back;
 };
 
-// Instead of ending the process.
+// libjpeg would end the process here.
 [[noreturn]] void GoBack(j_common_ptr info) {
   std::longjmp(reinterpret_cast<Errors*>(info->err)->back, 1);
 }
 
 struct Encoded {
-  unsigned char* bytes = nullptr;  // by malloc
+  unsigned char* bytes = nullptr;  // allocated by malloc
   unsigned long size = 0;
 };
 
-// No destructors: whatever fails jumps out of it.
+// This function must hold nothing that has a destructor, because errors jump out of it.
 bool Encode(const std::uint8_t* pixels, int width, int height, int channels, int quality,
             Encoded& encoded) {
   jpeg_compress_struct info;
@@ -52,7 +53,7 @@ bool Encode(const std::uint8_t* pixels, int width, int height, int channels, int
   jpeg_start_compress(&info, TRUE);
   const std::size_t row = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
   while (info.next_scanline < info.image_height) {
-    // It does not write there.
+    // libjpeg takes a mutable pointer but does not write to it.
     auto* line = const_cast<JSAMPROW>(pixels + info.next_scanline * row);
     jpeg_write_scanlines(&info, &line, 1);
   }

@@ -9,7 +9,7 @@
 namespace trailcast::image {
 namespace {
 
-// ITU-T T.81, table B.1.
+// These are from ITU-T T.81, table B.1.
 constexpr std::uint8_t kTemporary = 0x01;
 constexpr std::uint8_t kFirstRestart = 0xD0;
 constexpr std::uint8_t kLastRestart = 0xD7;
@@ -19,13 +19,13 @@ constexpr std::uint8_t kScan = 0xDA;
 constexpr std::uint8_t kExif = 0xE1;
 constexpr std::size_t kLengthBytes = 2;
 
-// B.1.1.3: a frame's header has one of the markers SOF0 to SOF15, from which the numbers of three
-// other segments are missing.
+// T.81, section B.1.1.3: a frame's header has one of the markers SOF0 to SOF15, without three
+// numbers that belong to other segments.
 bool IsFrame(std::uint8_t marker) {
   return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
 }
 
-// Those without a segment; 0 is no marker, but stands for a byte FF within a scan.
+// These markers have no segment. A 0 is no marker, but stands for a byte FF within a scan.
 bool StandsAlone(std::uint8_t marker) {
   return marker == 0 || marker == kTemporary || (marker >= kFirstRestart && marker <= kLastRestart);
 }
@@ -34,13 +34,13 @@ std::uint64_t BigEndian(std::span<const std::uint8_t> bytes) {
   return std::uint64_t{bytes[0]} << 8U | bytes[1];
 }
 
-// The sample precision, then height and width.
+// A frame's header begins with the sample precision, then height and width.
 std::uint64_t PixelsOf(std::span<const std::uint8_t> frame) {
   if (frame.size() < 5) return 0;
   return BigEndian(frame.subspan(1)) * BigEndian(frame.subspan(3));
 }
 
-// `left` then begins behind the next marker; nothing: there is none.
+// Returns the next marker and leaves in `left` what follows it; 0 if there is none.
 std::uint8_t TakeMarker(std::span<const std::uint8_t>& left) {
   auto at = std::find(left.begin(), left.end(), 0xFF);
   at = std::find_if(at, left.end(), [](std::uint8_t byte) { return byte != 0xFF; });

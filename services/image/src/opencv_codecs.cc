@@ -1,4 +1,4 @@
-// The library of codecs, over OpenCV's.
+// This file is the library of codecs, made from OpenCV's.
 #include "services/image/src/codecs.h"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ Result<std::vector<std::uint8_t>> ReadBytes(const fs::path& file) {
   return bytes;
 }
 
-// A camera's picture has no more; a header of a few bytes can promise a thousand times as many.
+// No camera's picture has more, but a header of a few bytes can promise a thousand times as many.
 constexpr std::uint64_t kMostPixels = 100'000'000;
 
 Result<cv::Mat> DecodeBytes(const std::vector<std::uint8_t>& bytes, const std::string& name,
@@ -69,7 +69,7 @@ Result<cv::Mat> DecodeBytes(const std::vector<std::uint8_t>& bytes, const std::s
                 name, pixels, kMostPixels);
   }
   cv::Mat picture;
-  // libjpeg fills a truncated JPEG up with grey and calls it read.
+  // libjpeg fills a truncated JPEG up with grey and reports success.
   const bool truncated = IsJpeg(bytes) && !ReadJpegLayout(bytes).whole;
   if (!bytes.empty() && !truncated) {
     try {
@@ -87,7 +87,7 @@ Result<cv::Mat> DecodeBytes(const std::vector<std::uint8_t>& bytes, const std::s
   return picture;
 }
 
-// CIPA DC-008 (Exif), 4.6.5: which sides the first row and the first column are.
+// CIPA DC-008 (Exif), section 4.6.5, tells which sides the first row and the first column are.
 cv::Mat Turned(const cv::Mat& picture, int orientation) {
   cv::Mat turned = picture;
   if (orientation >= 5) cv::transpose(picture, turned);
@@ -99,7 +99,7 @@ cv::Mat Turned(const cv::Mat& picture, int orientation) {
   return turned;
 }
 
-// Of 16 bits a pixel those that the run's pictures use.
+// Pictures of 16 bits a pixel keep the bits that the run uses.
 Result<cv::Mat> DecodeGrayBytes(const std::vector<std::uint8_t>& bytes, const std::string& name,
                                 PictureRun& run) {
   auto picture = DecodeBytes(bytes, name, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
@@ -172,7 +172,7 @@ Result<GrayImage> ReadGrayOf(const fs::path& file, PictureRun& run) {
       .map(FromMat<GrayImage>);
 }
 
-// Remembers the first frame's size and refuses any other.
+// Refuses any size but the first frame's.
 class SizeGuard {
  public:
   Result<GrayImage> Check(GrayImage frame, const std::string& name) {
@@ -264,7 +264,7 @@ class VideoSequence final : public FrameSequence {
   }
 
  private:
-  // Containers announce their length only roughly, so an end is early when a tenth is missing.
+  // Containers announce their length only roughly, so an end is early only when a tenth is missing.
   Result<std::optional<GrayImage>> AtEnd() const {
     if (read_ == 0 || read_ < announced_frames_ * 9 / 10) {
       return Fail(ErrorCode::kCorrupt,
@@ -281,7 +281,8 @@ class VideoSequence final : public FrameSequence {
   SizeGuard size_guard_;
 };
 
-// In natural order: f2 before f10, although "f10" is less than "f2" by its letters.
+// Compares in natural order: f2 comes before f10, although "f10" is less than "f2" letter by
+// letter.
 bool ComesBefore(const std::string& a, const std::string& b) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   const auto number_at = [&](const std::string& name, std::size_t from) {
@@ -316,7 +317,7 @@ Result<std::unique_ptr<FrameSequence>> OpenFolder(const fs::path& folder) {
   std::vector<fs::path> files;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    // macOS keeps what it knows of a file in one beside it, "._" before its name.
+    // macOS keeps its notes on a file in another file beside it, named "._" and the file's name.
     const bool hidden = entry->path().filename().string().front() == '.';
     if (IsPicture(entry->path()) && !hidden) files.push_back(entry->path());
   }
@@ -339,7 +340,8 @@ Result<std::unique_ptr<FrameSequence>> OpenFolder(const fs::path& folder) {
 Result<std::unique_ptr<FrameSequence>> OpenVideo(const fs::path& file) {
   cv::VideoCapture video;
   try {
-    // By name: with any backend allowed, OpenCV also asks for cameras, and GStreamer for devices.
+    // The backends are named because OpenCV would otherwise also ask for cameras, and GStreamer for
+    // devices.
     const std::string name = file.string();
     if (!video.open(name, cv::CAP_FFMPEG)) video.open(name, cv::CAP_OPENCV_MJPEG);
   } catch (const cv::Exception&) {

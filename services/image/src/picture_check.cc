@@ -13,7 +13,8 @@ Result<void> CheckPicture(std::span<const std::uint8_t> bytes, std::uint64_t mos
                 "the picture has {} pixels; at most {} are looked at: make it smaller", pixels,
                 most_pixels);
   }
-  // A progressive JPEG has about ten scans; each is a pass over all pixels, and may be a few bytes.
+  // A progressive JPEG has about ten scans. Each costs a pass over all pixels and may take only a
+  // few bytes.
   constexpr std::ptrdiff_t kMostScans = 64;
   const std::ptrdiff_t scans = ReadJpegLayout(bytes).scans;
   if (scans > kMostScans) {

@@ -20,7 +20,8 @@ bool BeginsWith(std::span<const std::uint8_t> bytes, const std::array<std::uint8
   return bytes.size() >= kSize && std::equal(start.begin(), start.end(), bytes.begin());
 }
 
-// https://www.w3.org/TR/png-3/, 11.2.1: the first chunk is IHDR; width and height come first in it.
+// https://www.w3.org/TR/png-3/, section 11.2.1: the first chunk is IHDR and begins with width and
+// height.
 std::uint64_t OfPng(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kWidthAt = 16;
   if (bytes.size() < kWidthAt + 8) return 0;

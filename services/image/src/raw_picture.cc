@@ -12,7 +12,7 @@ namespace trailcast::image {
 namespace {
 
 constexpr int kAsItIs = -1;
-constexpr int kOf16Bits = -2;  // those that are used
+constexpr int kOf16Bits = -2;  // the bits that the run uses
 
 struct Encoding {
   std::string_view name;
@@ -20,7 +20,8 @@ struct Encoding {
   int to_gray;  // OpenCV's conversion, or one of the above
 };
 
-// OpenCV names Bayer patterns by the second row's second and third pixel, ROS by the first row.
+// OpenCV names Bayer patterns by the second row's second and third pixel; ROS names them by the
+// first row.
 constexpr std::array kEncodings{
     Encoding{"mono8", CV_8UC1, kAsItIs},
     Encoding{"8UC1", CV_8UC1, kAsItIs},
