@@ -5,7 +5,7 @@
 
 namespace trailcast::motion {
 
-// How a body lies in space: a quaternion, as ROS 2 gives it.
+// How a body lies in space, as a quaternion in the form that ROS 2 gives it.
 struct Attitude {
   double x = 0.0;
   double y = 0.0;
@@ -13,10 +13,10 @@ struct Attitude {
   double w = 1.0;
 };
 
-// The heading of a body of any attitude: where its x axis points, seen from above. Nothing for
-// numbers that are none, or a quaternion of length 0.
+// Returns the heading of a body of any attitude: where its x axis points, seen from above. Numbers
+// that are not finite and a quaternion of length 0 have none.
 [[nodiscard]] std::optional<double> Heading(const Attitude& attitude);
-// Why there is none, for people.
+// Returns, for people, why there is no heading.
 [[nodiscard]] std::string WithoutHeading(const Attitude& attitude);
 
 }  // namespace trailcast::motion

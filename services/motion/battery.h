@@ -5,13 +5,13 @@
 
 namespace trailcast::motion {
 
-// How full a battery is, of what sensor_msgs/BatteryState says: its percentage is a share of 1, NaN
-// where it is not measured. Some drivers say 0 to 100 by mistake: whoever once says more than a
-// share can be means that from then on.
+// Reads how full a battery is from sensor_msgs/BatteryState. Its percentage is a share of 1, or NaN
+// if it is not measured. Some drivers give 0 to 100 by mistake: once a value is too large for a
+// share, all later ones are taken as percents.
 class BatteryGauge {
  public:
-  // In percent. `percentage` as it was said; of what is none that, `charge_ah` of `capacity_ah` is
-  // taken, either of which may be NaN. Nothing: not known.
+  // Returns percents, or nothing if they are not known. If `percentage` is NaN, `charge_ah` of
+  // `capacity_ah` counts instead, either of which may be NaN too.
   [[nodiscard]] std::optional<std::uint8_t> Read(float percentage, float charge_ah,
                                                  float capacity_ah);
 

@@ -7,17 +7,18 @@
 
 namespace trailcast::motion {
 
-// What an inertial measurement unit says at one moment, mounted as the base is (REP 103: x ahead,
-// y left, z up) or said in the base's frame.
+// The readings of an inertial measurement unit at one moment, in the base's frame (REP 103: x
+// ahead, y left, z up).
 struct ImuSample {
-  // REP 145: of a base that stands level, +9.81 along z. Nothing: it has no accelerometer.
+  // A level base at rest has +9.81 along z (REP 145). A unit without an accelerometer gives
+  // nothing.
   std::optional<Eigen::Vector3d> acceleration_mps2{};
-  // Against the horizon. Nothing: it does not tell.
+  // The attitude against the horizon, if the unit gives one.
   std::optional<Attitude> attitude{};
 };
 
-// How far x points above the horizon: the slope of the way that a base drives ahead, uphill
-// positive. Nothing for numbers that are none, or a quaternion of length 0.
+// Returns how far x points above the horizon: the slope of the ground ahead, uphill positive.
+// Numbers that are not finite and a quaternion of length 0 have none.
 [[nodiscard]] std::optional<double> Climb(const Attitude& attitude);
 
 }  // namespace trailcast::motion

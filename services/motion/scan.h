@@ -6,27 +6,27 @@
 
 namespace trailcast::motion {
 
-// One look of a scanner that turns in a plane.
+// One sweep of a scanner that turns in a plane.
 struct Scan {
   double first_rad = 0.0;  // counter-clockwise from straight ahead
   double step_rad = 0.0;   // from each range to the next; negative: clockwise
-  double least_m = 0.0;    // what it can measure
+  double least_m = 0.0;    // the range that it can measure
   double most_m = 0.0;
   std::vector<float> ranges_m;
 };
 
 constexpr std::size_t kMostRanges = 65536;
 
-// Whether it can be a scanner's: at least one and at most kMostRanges ranges over at most two
-// turns, angles and the least range finite, a step that is one.
+// Says whether a scanner can give this: it has 1 to kMostRanges ranges over at most two turns, and
+// its angles, least range and step are finite.
 [[nodiscard]] bool Plausible(const Scan& scan);
 
-// How far what one of its ranges saw is. What it cannot measure (NaN, infinite, below its least
-// range, 0) is nothing; minus infinity is something nearer than it can measure (REP 117), and put
-// at its least range.
+// Returns the distance that one of its ranges stands for. A range that cannot be measured (NaN,
+// infinity, 0, less than the least range) gives nothing. Minus infinity means that something is too
+// near to measure (REP 117) and counts as the least range.
 [[nodiscard]] std::optional<double> Measured(const Scan& scan, float range_m);
 
-// Whether it looks that way at all: counter-clockwise from straight ahead.
+// Says whether the scanner looks to an angle, counter-clockwise from straight ahead.
 [[nodiscard]] bool LooksTo(const Scan& scan, double angle_rad);
 
 }  // namespace trailcast::motion

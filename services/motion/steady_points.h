@@ -7,12 +7,13 @@
 
 namespace trailcast::motion {
 
-// What a scanner sees, scan by scan, without false points: a single return whose neighbours see
-// far beyond it (dust, rain, a ray that grazes an edge) is taken for something only when the scan
-// before had it, too. A thin pole is seen again and again.
+// Filters false points out of a scanner's sweeps. A single return whose neighbours see far beyond
+// it (dust, rain, a ray that grazes an edge) counts only if the sweep before had it as well. A thin
+// pole is seen again and again, and stays.
 class SteadyPoints {
  public:
-  // Those of the next scan, seen from the axle, `ahead_m` of which it looks: x ahead, y left.
+  // Returns the points of the next sweep, seen from the axle (x ahead, y left), for a scanner that
+  // is `ahead_m` ahead of it.
   [[nodiscard]] std::vector<Eigen::Vector2d> Next(const Scan& scan, double ahead_m);
 
  private:

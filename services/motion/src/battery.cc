@@ -6,7 +6,7 @@
 namespace trailcast::motion {
 namespace {
 
-// A gauge that is a little above full is no percentage yet.
+// A gauge that reads a little above full still gives shares.
 constexpr float kMostShare = 1.5F;
 constexpr float kMostPercent = 100.0F * kMostShare;
 

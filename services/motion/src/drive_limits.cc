@@ -6,14 +6,14 @@
 namespace trailcast::motion {
 namespace {
 
-constexpr double kWheel_m = 0.2;  // from the middle
+constexpr double kWheel_m = 0.2;  // from the base's middle
 
-// The share of `value` that is within `most`.
+// Returns the share of `value` that is within `most`.
 double ShareWithin(double value, double most) {
   return std::abs(value) > most ? most / std::abs(value) : 1.0;
 }
 
-// How fast one may be after speeding up by `change`: whoever goes the other way stands first.
+// Returns the highest speed after a change of `change`: a base that reverses stops first.
 double Reach(double value, double now, double change) {
   return (value * now > 0.0 ? std::abs(now) : 0.0) + change;
 }

@@ -6,7 +6,7 @@
 namespace trailcast::motion {
 namespace {
 
-// Bends wider than this are straight, tighter than that a turn on the spot.
+// Wider bends count as straight, and tighter ones as turns on the spot.
 constexpr double kStraight_m = 1000.0;
 constexpr double kOnTheSpot_m = 0.05;
 
@@ -15,7 +15,8 @@ std::optional<double> WayAhead(const Eigen::Vector2d& at, const Outline& outline
   return std::max(0.0, at.x() - outline.front_m);
 }
 
-// About a point `radius_m` to the left: until what is there is at the robot's front, or beside it.
+// Returns the distance along a turn about a point `radius_m` to the left until `at` is at the
+// robot's front or side.
 std::optional<double> WayLeft(const Eigen::Vector2d& at, const Outline& outline, double radius_m) {
   const double r = std::hypot(at.x(), radius_m - at.y());
   const double corner_m = std::hypot(outline.front_m, radius_m + outline.side_m);

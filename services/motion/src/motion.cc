@@ -24,7 +24,7 @@ OdometryIncrement IncrementBetween(const Pose2& before, const Pose2& after) {
   const Pose2 step = Between(before, after);
   const double chord_m = std::hypot(step.x_m, step.y_m);
   const double half_rad = 0.5 * step.heading_rad;
-  // Chord to arc; along a half turn the two differ by pi/2, for small turns not at all.
+  // This is the ratio of arc to chord: pi/2 for a half turn, and 1 for small turns.
   const double arc_over_chord = std::abs(half_rad) < 1e-9 ? 1.0 : half_rad / std::sin(half_rad);
   const Eigen::Vector2d chord_direction(std::cos(half_rad), std::sin(half_rad));
   const bool forward = chord_direction.dot(Eigen::Vector2d(step.x_m, step.y_m)) >= 0.0;

@@ -30,7 +30,7 @@ bool LooksTo(const Scan& scan, double angle_rad) {
   const double last_rad =
       scan.first_rad + scan.step_rad * static_cast<double>(scan.ranges_m.size() - 1);
   const double low_rad = std::min(scan.first_rad, last_rad);
-  // A scanner that looks all round leaves out a step, or less.
+  // A scanner that looks all round leaves out at most one step.
   const double turned_rad = std::abs(last_rad - scan.first_rad) + std::abs(scan.step_rad);
   const double off_rad = std::remainder(angle_rad - low_rad, 2.0 * std::numbers::pi);
   return (off_rad < 0.0 ? off_rad + 2.0 * std::numbers::pi : off_rad) <= turned_rad;

@@ -6,10 +6,10 @@
 namespace trailcast::motion {
 namespace {
 
-// What is so much further is not the same thing.
+// A point further away than this belongs to another thing.
 constexpr double kBeyond_m = 0.3;
-// How far the same thing may be from where the scan before had it: what a robot turns and drives
-// from one scan to the next.
+// The next scan may have the same thing this far off, because a robot turns and drives between
+// scans.
 constexpr double kTurned_rad = 0.1;
 constexpr double kDriven_m = 0.2;
 constexpr double kMostNeighbours = 100.0;
@@ -31,7 +31,7 @@ bool SteadyPoints::SeenBefore(double angle_rad, double range_m) const {
   const auto count = std::ssize(before_.ranges_m);
   if (count == 0) return false;
   const double middle = (angle_rad - before_.first_rad) / before_.step_rad;
-  // A scanner may be another one than before.
+  // The scan may come from another scanner than the one before.
   if (!(std::abs(middle) < 2.0 * static_cast<double>(kMostRanges))) return false;
   const double wide = std::clamp(kTurned_rad / std::abs(before_.step_rad), 1.0, kMostNeighbours);
   const long reach = std::min<long>(std::lround(wide), count);
