@@ -5,19 +5,19 @@
 
 namespace trailcast::odometry {
 
-// Something that was measured at rising times, seconds.
+// A value that was measured at a time; times rise along a series.
 struct TimedValue {
   double t_s = 0.0;
   double value = 0.0;
 };
 
-// Between the two about it, or the first or last one. Not empty.
+// Interpolates in a series that is not empty; outside of it, the first or the last value holds.
 [[nodiscard]] double ValueAt(const std::vector<TimedValue>& series, double t_s);
 
 struct LagOptions {
   double longest_s = 0.5;  // either way
-  double period_s = 0.1;   // over which a change is taken
-  double clear = 0.8;      // so well the two have to agree (a correlation) for a lag to be known
+  double period_s = 0.1;   // the span over which a change is taken
+  double clear = 0.8;      // the correlation that a lag needs to count as known
 };
 
 struct Lag {
@@ -25,10 +25,10 @@ struct Lag {
   double correlation = 0.0;  // of the changes, -1 to 1
 };
 
-// How much later than `reference` the changes of `series` come: where both agree best, if that is
-// clear, in steps of 10 ms. Their scales may differ, and their signs, which the correlation's sign
-// tells; so may what both change by all the while. Nothing: either does not change, or they have
-// too little to do with each other, or agree best at the end of what is looked at.
+// Returns how much later the changes of `series` come than those of `reference`, in steps of 10 ms.
+// Scale, sign and a constant rate of change may differ; the correlation's sign tells the sign.
+// Returns nothing if either series does not change, if they correlate too little, or if they agree
+// best at the end of the range that is searched.
 [[nodiscard]] std::optional<Lag> LagOf(const std::vector<TimedValue>& series,
                                        const std::vector<TimedValue>& reference,
                                        const LagOptions& options = {});

@@ -9,13 +9,13 @@
 
 namespace trailcast::odometry {
 
-// A drive's steps, summed up since its beginning: what happened in any time is a difference.
+// Sums up a drive's steps since its beginning, so that the motion in any time is a difference.
 class DriveTrack {
  public:
   // At least one step.
   explicit DriveTrack(std::span<const DriveStep> steps);
 
-  // From `t_s` - `period_s` to `t_s` by the picture, and so much later by odometry.
+  // The motion from `t_s` - `period_s` to `t_s` by the picture, and so much later by odometry.
   struct Window {
     double picture_rad = 0.0;
     double down_share = 0.0;
@@ -23,7 +23,8 @@ class DriveTrack {
     double flow = 0.0;
     double odometry_rad = 0.0;
     double driven_m = 0.0;
-    bool known = false;  // within the drive; the picture was seen, and odometry whole
+    bool known = false;  // the window is within the drive, the picture was followed, and odometry
+                         // did not break
   };
   [[nodiscard]] Window Over(double t_s, double period_s, double odometry_late_s) const;
 
@@ -41,7 +42,7 @@ class DriveTrack {
   Sum flow_;
   Sum odometry_rad_;
   Sum driven_m_;
-  Sum unseen_;  // steps
+  Sum unseen_;  // steps whose picture was not followed
   Sum broken_;
 };
 

@@ -13,36 +13,36 @@ namespace {
 
 using Window = DriveTrack::Window;
 
-// Steering leads by some tenths, bad drivers and networks come late by some more.
+// Steering leads by some tenths of a second; bad drivers and networks come late by some more.
 constexpr LagOptions kLateness{.longest_s = 1.5, .period_s = 0.3, .clear = 0.5};
 constexpr double kWindow_s = 0.5;
 constexpr double kLeastSpell_s = 0.3;
 constexpr double kSpellsApart_s = 0.3;
-// Of odometry that stands, as frozen odometry does: nothing is rounded to less.
+// Odometry stands below these rates, as frozen odometry does: rounding leaves nothing smaller.
 constexpr double kStill_mps = 0.002;
 constexpr double kStill_radps = 0.002;
-// By what the picture moves, of its width, that moves beyond doubt.
+// The picture moves beyond doubt above this flow, in shares of its width.
 constexpr double kMoves_flow = 0.03;  // a second
-// A picture that has not shifted nor grown in a window, but for a tracker's noise.
+// The picture stands below these, which are a tracker's noise in one window.
 constexpr double kStands_rad = 0.003;
 constexpr double kStands_down = 0.003;
 constexpr double kStands_growth = 0.004;
-// Odometry that drives beyond doubt.
+// Odometry moves beyond doubt above these rates.
 constexpr double kDrives_mps = 0.05;
 constexpr double kTurns_radps = 0.1;
-// Turns that are no noise.
+// Differences of turn rates above these are no noise.
 constexpr double kElse_radps = 0.35;
 constexpr double kElseNoise = 5.0;
 constexpr double kLeastStanding_s = 2.0;
 constexpr double kLeastTold_m = 0.5;
-// A whole turn shows as one by the focal lengths that cameras have, and by odometry that is of any
-// use: a place that only looks like the first is none.
+// Cameras' focal lengths and useful odometry show a whole turn within these factors. Outside them,
+// the place only resembles the first one.
 constexpr double kLeastWhole = 0.4;
 constexpr double kMostWhole = 2.5;
 constexpr double kLeastWholeTold = 0.6;
 constexpr double kMostWholeTold = 1.6;
 
-// At the end of every step whose window is known.
+// The state at the end of each step whose window is known.
 struct Moment {
   double t_s = 0.0;
   Window window;
@@ -81,8 +81,8 @@ double BeyondPicture(const TurnFit& fit, const Window& window, double period_s) 
   return window.odometry_rad - fit.scale * window.picture_rad - fit.drift_radps * period_s;
 }
 
-// Windows in a row of which `is` holds; a spell begins and ends in the middle of the first one's
-// and the last one's time.
+// Returns the runs of consecutive windows for which `is` holds. A spell begins in the middle of its
+// first window and ends in the middle of its last.
 std::vector<Spell> SpellsOf(Spell::Kind kind, const std::vector<Moment>& moments,
                             const std::function<bool(const Window&)>& is) {
   std::vector<Spell> spells;
@@ -159,7 +159,7 @@ std::optional<WholeTurn> WholeTurnOf(const DriveTrack& track, double late_s,
   if (!came_back) return std::nullopt;
   const double period_s = came_back->t_s - track.begins_s();
   const Window window = track.Over(came_back->t_s, period_s, 0.0);
-  // Where the robot stands or drives straight at both ends, its lateness does not matter.
+  // The lateness does not matter if the robot stands or drives straight at both ends.
   const double odometry_rad = ValueAt(track.odometry_turn(), came_back->t_s + late_s) -
                               ValueAt(track.odometry_turn(), track.begins_s() + late_s);
   const double whole_rad = 2.0 * std::numbers::pi;

@@ -11,7 +11,8 @@ namespace trailcast::odometry {
 namespace {
 
 constexpr std::size_t kFewestPairs = 20;
-constexpr double kLeastSpread_radps = 0.04;  // of the picture's rates: else nothing turns
+constexpr double kLeastSpread_radps = 0.04;  // spread of the picture's rates below which nothing
+                                             // turns
 constexpr int kIterations = 20;
 constexpr double kLeastNoise_radps = 0.01;
 constexpr std::size_t kParts = 4;
@@ -57,7 +58,7 @@ Moments Weighed(std::span<const TurnPair> pairs, const Line* line) {
   return sum;
 }
 
-// Of the picture's rates, about their mean.
+// Returns the spread of the picture's rates about their mean.
 double SpreadOf(const Moments& sum) {
   return std::sqrt(std::max(0.0, sum.pp / sum.weight - Square(sum.p / sum.weight)));
 }

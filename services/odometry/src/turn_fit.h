@@ -7,15 +7,15 @@
 
 namespace trailcast::odometry {
 
-// Within one window.
+// The two turn rates within one window.
 struct TurnPair {
   double t_s = 0.0;
   double picture_radps = 0.0;
   double odometry_radps = 0.0;
 };
 
-// The line through the pairs that most of them are near (least squares, Cauchy weights). Nothing:
-// too little is turned.
+// Fits the line near which most of the pairs are (least squares with Cauchy weights). Returns
+// nothing if the drive turns too little.
 [[nodiscard]] std::optional<TurnFit> FitTurn(const std::vector<TurnPair>& pairs);
 
 }  // namespace trailcast::odometry

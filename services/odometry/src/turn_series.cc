@@ -9,7 +9,8 @@ namespace {
 constexpr double kLagStep_s = 0.01;
 constexpr std::size_t kFewest = 10;
 
-// Pearson's, of the changes over a period, those of `reference` taken so much earlier.
+// Returns Pearson's correlation of the changes over a period, with those of `reference` taken
+// `lag_s` earlier.
 double Correlation(const std::vector<TimedValue>& series, const std::vector<TimedValue>& reference,
                    double lag_s, double period_s) {
   double a = 0.0;
@@ -35,7 +36,7 @@ double Correlation(const std::vector<TimedValue>& series, const std::vector<Time
   if (count < static_cast<double>(kFewest)) return 0.0;
   const double one = aa - a * a / count;
   const double other = bb - b * b / count;
-  // What is left of rounding is no change.
+  // A change as small as a rounding error is none.
   constexpr double kNone = 1e-12;
   if (one <= kNone * (1.0 + aa) || other <= kNone * (1.0 + bb)) return 0.0;
   return (ab - a * b / count) / std::sqrt(one * other);
