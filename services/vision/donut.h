@@ -6,11 +6,11 @@
 
 namespace trailcast::vision {
 
-// An omnidirectional mirror shows a donut, in which a turn of the robot turns the picture: u and v
-// mean nothing there. Its upper half, which looks ahead, is unrolled to a panorama as wide as the
-// picture, the bearing along u from -90 to 90 degrees, the donut's outer rim on top (the paper,
-// section VI, leaves out the lower half as well). Whether there is a donut, and where, the first
-// frame shows: a dark surround and a dark round hole in the middle.
+// Unrolls the donut that an omnidirectional mirror shows. In a donut a turn of the robot turns the
+// picture, so u and v mean nothing there. The upper half, which looks ahead, becomes a panorama as
+// wide as the picture: u is the bearing from -90 to 90 degrees, and the donut's outer rim is on
+// top. The paper's section VI leaves out the lower half as well. The first frame decides whether
+// there is a donut and where: it has a dark surround and a dark round hole in the middle.
 class DonutUnroller {
  public:
   DonutUnroller();
@@ -18,8 +18,8 @@ class DonutUnroller {
   DonutUnroller(DonutUnroller&&) noexcept;
   DonutUnroller& operator=(DonutUnroller&&) noexcept;
 
-  // The panorama, valid until the next call, or `frame` itself where there is no donut. All frames
-  // must have the size of the first.
+  // Returns the panorama, valid until the next call, or `frame` itself if there is no donut. All
+  // frames must have the size of the first.
   [[nodiscard]] const image::GrayImage& Unroll(const image::GrayImage& frame);
 
  private:

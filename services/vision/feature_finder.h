@@ -10,65 +10,69 @@
 namespace trailcast::vision {
 
 struct FeatureFinderOptions {
-  // Near search: correlation of the stored pattern around the place where it is expected.
+  // The near search correlates the stored pattern around the place where it is expected.
   double min_correlation = 0.70;
-  // What the found ones must agree on, scout pixels (see ViewFitOptions).
+  // The tolerances within which the features found must agree, in the scout's pixels (see
+  // ViewFitOptions).
   double agree_u_px = 16.0;
   double agree_v_px = 5.0;
-  // At any magnification (camera at hand / scout's), in steps that a pattern bears.
+  // The magnifications (this camera's to the scout's) among which FindAtAnyMagnification searches,
+  // in steps that a pattern tolerates.
   double least_magnification = 0.2;
   double most_magnification = 5.0;
 };
 
-// How far from the expected places to look, in pixels of the scout's magnification.
+// How far from the expected places the search reaches, in pixels of the scout's magnification.
 struct SearchRadius {
   double u_px = 28.0;
   double v_px = 14.0;
 };
 
 struct FindResult {
-  // In pixels of the frame from its centre; id: position in the list that was sought.
+  // Coordinates are in pixels of the frame from its centre; an id is a position in the list that
+  // was sought.
   std::vector<route::TrackedFeature> features;
-  double magnification = 1.0;  // pixels of the frame per scout's pixel, as these features say
-  int in_picture = 0;          // of those sought, how many were expected to be in the picture
+  double magnification = 1.0;  // the frame's pixels per pixel of the scout's, by these features
+  int in_picture = 0;          // how many of the features sought were expected in the picture
 
-  // A third of what is sought can be found in agreement in any picture, and where corners are all
-  // alike nearly half: so many more are found, and whether they are enough to mean something.
+  // Returns by how many features the result exceeds chance. In any picture a third of the features
+  // sought can be found in agreement, and nearly half where corners look alike.
   [[nodiscard]] double AboveChance() const {
     return static_cast<double>(features.size()) - 0.45 * in_picture;
   }
   [[nodiscard]] bool BeyondChance() const { return AboveChance() >= 3.0; }
 };
 
-// Where a fit puts the features' taught places at fraction `s` of their segment: what FindNear
-// expects.
+// Returns where a fit puts the features' taught places at fraction `s` of their segment, as
+// FindNear expects them.
 [[nodiscard]] std::vector<route::TrackedFeature> TaughtPlaces(
     std::span<const route::Feature> sought, double s, const ViewFit& fit);
 
-// Finds a segment's stored features in a frame of whatever camera. Deterministic, stateless.
+// Finds a segment's stored features in a frame of any camera. It is deterministic and stateless.
 class FeatureFinder {
  public:
   explicit FeatureFinder(const FeatureFinderOptions& options = {}) : options_(options) {}
 
-  // By their patterns, around where each is expected (pixels of the frame from its centre; ids are
-  // positions in `sought`). `magnification`: how much larger they are here than in the scout's.
+  // Finds features by their patterns, around where each is expected (pixels of the frame from its
+  // centre; ids are positions in `sought`). `magnification` is how much larger they appear here
+  // than in the scout's camera.
   [[nodiscard]] FindResult FindNear(const image::GrayImage& frame,
                                     std::span<const route::Feature> sought,
                                     std::span<const route::TrackedFeature> expected,
                                     double magnification, const SearchRadius& radius) const;
 
-  // The same by the scout's own kind of camera on ground that tilts it: the features found agree on
-  // a roll as well, and those that were missed are sought again where the others say. Takes the
-  // magnification to be as it is given.
+  // Finds features with a camera of the scout's kind on ground that tilts it. The features found
+  // agree on a roll as well, and those that were missed are sought again where the others put them.
+  // The magnification is fixed.
   [[nodiscard]] FindResult FindTilted(const image::GrayImage& frame,
                                       std::span<const route::Feature> sought,
                                       std::span<const route::TrackedFeature> expected,
                                       double magnification, const SearchRadius& radius) const;
 
-  // The same by a robot that stands where the scout stood at fraction `s` of the segment, give or
-  // take the radius, and whose camera nothing is known of: at every magnification. `growth`: how
-  // much larger the patterns are there than where the scout took them. Nothing found that is not
-  // beyond chance.
+  // Finds features at every magnification, for a robot that stands where the scout stood at
+  // fraction `s` of the segment, give or take the radius, and whose camera is not known. `growth`
+  // is how much larger the patterns appear there than where the scout took them. A result that
+  // chance explains is empty.
   [[nodiscard]] FindResult FindAtAnyMagnification(const image::GrayImage& frame,
                                                   std::span<const route::Feature> sought, double s,
                                                   const SearchRadius& radius,

@@ -8,16 +8,17 @@
 namespace trailcast::vision {
 
 struct IntakeOptions {
-  // How far the camera is rolled about where it looks, clockwise as seen from behind it: pictures
-  // are turned by as much. 180: it hangs upside down. Valid as CheckRoll has it.
+  // How far the camera is rolled about its optical axis, clockwise as seen from behind it; pictures
+  // are turned by as much. A camera that hangs upside down has 180. CheckRoll tells which values
+  // are valid.
   double roll_deg = 0.0;
-  // Larger pictures are reduced: windows, spacings and tolerances of tracker and finder are in
-  // pixels, and fit pictures of 320 to 640 pixels.
+  // Larger pictures are reduced, because windows, spacings and tolerances of the tracker and the
+  // finder are in pixels and fit pictures of 320 to 640 pixels.
   int longest_side_px = 640;
 };
 
-// kInvalidArgument for a roll of more than 20 degrees off a quarter turn: there is no upright
-// rectangle worth looking at in such a picture.
+// Refuses with kInvalidArgument a roll of more than 20 degrees off a quarter turn, because the
+// upright rectangle in such a picture is too small.
 [[nodiscard]] Result<void> CheckRoll(double roll_deg);
 
 struct PictureSize {
@@ -25,9 +26,9 @@ struct PictureSize {
   int height = 0;
 };
 
-// What a camera's pictures are made into before anything looks at them: reduced to a working size,
-// turned upright (of a small roll the largest upright rectangle of the same shape is left), and
-// unrolled where they show an omnidirectional mirror's donut. Deterministic; not thread-safe.
+// Prepares a camera's pictures before anything looks at them. It reduces them to a working size,
+// turns them upright (a small roll leaves the largest upright rectangle of the same shape) and
+// unrolls an omnidirectional mirror's donut. It is deterministic and not thread-safe.
 class PictureIntake {
  public:
   explicit PictureIntake(const IntakeOptions& options = {});
@@ -35,11 +36,11 @@ class PictureIntake {
   PictureIntake(PictureIntake&&) noexcept;
   PictureIntake& operator=(PictureIntake&&) noexcept;
 
-  // The first of these alone, so that a picture can be kept that is taken later.
+  // Does the first of these steps alone, so that a picture can be kept and taken later.
   [[nodiscard]] const image::GrayImage& Reduce(const image::GrayImage& frame);
 
-  // Valid until the next call; `frame` itself where nothing is to be done. All frames must have the
-  // size of the first.
+  // Returns a picture that is valid until the next call, or `frame` itself if nothing is to be
+  // done. All frames must have the size of the first.
   [[nodiscard]] const image::GrayImage& Take(const image::GrayImage& frame);
 
  private:
@@ -47,7 +48,8 @@ class PictureIntake {
   std::unique_ptr<State> state_;
 };
 
-// Of a frame of that size, reduced and upright: what a route's pixels are counted in.
+// Returns the size of a camera's frame once it is reduced and upright. A route's pixels are counted
+// in it.
 [[nodiscard]] PictureSize WorkingSize(const PictureSize& camera, const IntakeOptions& options = {});
 
 }  // namespace trailcast::vision

@@ -8,7 +8,7 @@ namespace trailcast::vision {
 namespace {
 
 constexpr float kMiddleLevel = 8.0F;
-constexpr float kLevelsPerSigma = 3.0F;  // +-2.5 standard deviations fill the 16 levels
+constexpr float kLevelsPerSigma = 3.0F;  // the 16 levels span +-2.5 standard deviations
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// For vision's own sources: a feature's appearance, cut out of a frame.
+// This header is for vision's own sources: it cuts a feature's appearance out of a frame.
 
 #include <opencv2/core.hpp>
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace trailcast::vision {
 
-// The pattern around `centre` (OpenCV pixel coordinates) as the route stores it; nothing within
-// half a patch of the edge.
+// Returns the pattern around `centre` (OpenCV's pixel coordinates) as the route stores it, or
+// nothing within half a patch of the edge.
 [[nodiscard]] std::optional<route::Patch> CutPatch(const cv::Mat& frame, cv::Point2f centre);
 
 }  // namespace trailcast::vision

@@ -10,15 +10,15 @@
 namespace trailcast::vision {
 namespace {
 
-// Of the hole: how far from the picture's middle, how large, and how much of its bounding square it
-// fills (a full circle: 0.785).
+// Bounds for the hole: its distance from the picture's middle, its size, and how much of its
+// bounding square it fills (a full circle fills 0.785).
 constexpr double kFarthestShare = 0.1;
 constexpr double kSmallestShare = 0.08;
 constexpr double kLargestShare = 0.7;
 constexpr double kLeastFilled = 0.70;
 constexpr double kMostFilled = 0.86;
 constexpr double kLeastSquare = 0.85;  // shorter side to longer side
-constexpr double kRim_px = 4.0;        // half picture, half dark
+constexpr double kRim_px = 4.0;        // pixels there are half picture, half dark
 
 struct Donut {
   cv::Point2d centre;
@@ -26,7 +26,7 @@ struct Donut {
   double outer_px = 0.0;
 };
 
-// The dark region around the picture's middle, if it is round.
+// Returns the dark region around the picture's middle if it is round.
 std::optional<Donut> FindHole(cv::Mat& dark, double outer_px) {
   const cv::Point middle(dark.cols / 2, dark.rows / 2);
   if (dark.at<std::uint8_t>(middle) == 0) return std::nullopt;
@@ -74,7 +74,7 @@ void DonutUnroller::State::Decide(const cv::Mat& frame) {
   const double inner_px = donut->inner_px + kRim_px;
   const double outer_px = donut->outer_px - kRim_px;
   const double px_per_rad = frame.cols / std::numbers::pi;
-  // As high as is right half way between the rims, where it neither stretches nor squeezes.
+  // The height is right half way between the rims, where the panorama keeps its proportions.
   const int height =
       std::max(1, cvRound((outer_px - inner_px) * px_per_rad / (0.5 * (inner_px + outer_px))));
   map_x.create(height, frame.cols, CV_32FC1);

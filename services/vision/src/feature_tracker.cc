@@ -18,10 +18,10 @@ using Pyramid = std::vector<cv::Mat>;
 const cv::TermCriteria kFlowEnd(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.02);
 constexpr double kFlowMinEigenvalue = 1e-4;
 constexpr double kLargestWindow = 3.0;   // times the usual one
-constexpr double kMiddleSpacing = 0.5;   // of that on a regular grid
-constexpr double kMiddleQuality = 0.05;  // of the best that is left there
-constexpr int kSurroundEvery = 8;        // frames: what stays dark does so for long
-constexpr int kEdge_px = 4;  // features that leave the frame are lost a little before its edge
+constexpr double kMiddleSpacing = 0.5;   // of the spacing on a regular grid
+constexpr double kMiddleQuality = 0.05;  // of the best corner that is left there
+constexpr int kSurroundEvery = 8;        // frames, because a surround stays dark for long
+constexpr int kEdge_px = 4;  // features are dropped a little before they reach the frame's edge
 
 // A corner must stand out of the sensor's noise (2 to 3 grey levels, a third of that once
 // smoothed).
@@ -45,7 +45,7 @@ cv::Point2f MedianOf(const std::vector<cv::Point2f>& points) {
   return {median(&cv::Point2f::x), median(&cv::Point2f::y)};
 }
 
-// Whether there is more around the point than noise.
+// Says whether there is more than noise around the point.
 bool StandsOut(const cv::Mat& smoothed, cv::Point2f point, int window_px) {
   const cv::Rect around = cv::Rect(cvRound(point.x) - window_px / 2,
                                    cvRound(point.y) - window_px / 2, window_px, window_px) &
@@ -98,7 +98,7 @@ Flow FeatureTracker::State::FlowTo(const Pyramid& from, const Pyramid& to,
   return flow;
 }
 
-// Where the features are after a turn, if it moves them far.
+// Returns where the features are after a turn, if it moves them far.
 std::vector<cv::Point2f> FeatureTracker::State::Turned(double turned_rad) const {
   std::vector<cv::Point2f> guess = points;
   const double right_px = turned_rad * options.turn_share * last.front().cols;
@@ -128,14 +128,14 @@ void FeatureTracker::State::KeepThoseThatReturn(const Flow& forward, const Flow&
   }
   ids.resize(kept);
   points.resize(kept);
-  // Where a lost feature went is not known: the others' motion says whether it can be in view.
+  // Nobody knows where a lost feature went, but the others' motion tells whether it can be in view.
   const cv::Point2f shift = MedianOf(moved);
   losses.left_picture = static_cast<int>(std::count_if(
       gone.begin(), gone.end(), [&](cv::Point2f at) { return !inside.contains(at + shift); }));
   losses.not_returned = static_cast<int>(gone.size()) - losses.left_picture;
 }
 
-// What those that are spread over the picture leave to be wished for in its middle.
+// Adds features in the picture's middle until there are as many as wanted.
 void FeatureTracker::State::DetectInTheMiddle(const cv::Mat& frame, const cv::Mat& where,
                                               int wanted) {
   const cv::Size size(cvRound(options.middle_share * frame.cols),

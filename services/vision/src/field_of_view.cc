@@ -6,9 +6,11 @@
 namespace trailcast::vision {
 namespace {
 
-constexpr int kDarkLevel = 28;             // a surround is black but for noise and compression
-constexpr int kCornersNeeded = 3;          // of the image's four: a dark object covers one or two
-constexpr double kLargestDarkShare = 0.6;  // darker than that all over is a dark scene, not a lens
+constexpr int kDarkLevel = 28;             // a surround is black except for noise and compression
+constexpr int kCornersNeeded = 3;          // of the image's four, because a dark object covers one
+                                           // or two
+constexpr double kLargestDarkShare = 0.6;  // a picture with more darkness shows a dark scene, not a
+                                           // lens
 constexpr double kRimShareOfWidth = 0.06;  // features on the circle's rim belong to the lens
 
 }  // namespace

@@ -10,14 +10,14 @@
 namespace trailcast::vision {
 namespace {
 
-constexpr double kStep = 1.12;  // a pattern bears about half of this either way
+constexpr double kStep = 1.12;  // a pattern tolerates about half of this in either direction
 constexpr std::size_t kFewestToFit = 4;
-// The second look, where the first one's fit puts the features.
-constexpr double kCloserRadius = 0.27;  // of the first one's
+// These are for a second search, near where the first one's fit puts the features.
+constexpr double kCloserRadius = 0.27;  // of the first search's
 constexpr double kCloserAgreement = 0.6;
 constexpr double kCloserCorrelation = 0.75;
 
-// The fit from the taught places to those found, if there is one.
+// Returns the fit from the taught places to those found, if there is one.
 std::optional<ViewFit> FitTo(const FindResult& found, std::span<const route::Feature> sought,
                              double s) {
   std::vector<ViewPair> pairs;

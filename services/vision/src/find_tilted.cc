@@ -10,8 +10,8 @@
 namespace trailcast::vision {
 namespace {
 
-// Of one view against another: turned, scaled, shifted; a robot that rolls, has come nearer,
-// pitches or heads elsewhere. u' = a u - b v + du, v' = b u + a v + dv.
+// How one view is turned, scaled and shifted against another, for a robot that rolls, pitches,
+// heads elsewhere or has come nearer: u' = a u - b v + du, v' = b u + a v + dv.
 struct Similarity {
   double a = 1.0;
   double b = 0.0;
@@ -25,12 +25,14 @@ struct Similarity {
 
 constexpr double kLeastScale = 0.7;
 constexpr double kMostScale = 1.4;
-constexpr double kLargestRoll_rad = 0.26;  // 15 degrees, between two robots on slopes that differ
+constexpr double kLargestRoll_rad = 0.26;  // 15 degrees, as between two robots on slopes that
+                                           // differ
 constexpr std::size_t kFewestToFitTilted = 4;
-// The second look, where the first one's fit puts the features.
-constexpr double kCloser = 1.5;  // times what they may be off
+// The second search stays near where the first one's fit puts the features.
+constexpr double kCloser = 1.5;  // times the tolerance
 
-// RANSAC and least squares by OpenCV; repeatable for equal input. Nothing: no agreement.
+// Fits by OpenCV's RANSAC and least squares, repeatable for equal input. Returns nothing if the
+// pairs do not agree.
 std::optional<Similarity> FitSimilarity(const std::vector<ViewPair>& pairs, double tolerance_px) {
   if (pairs.size() < kFewestToFitTilted) return std::nullopt;
   std::vector<cv::Point2d> expected;
@@ -49,7 +51,7 @@ std::optional<Similarity> FitSimilarity(const std::vector<ViewPair>& pairs, doub
   return plausible ? std::optional(similarity) : std::nullopt;
 }
 
-// Those that were found where they were expected.
+// Returns the features that were found where they were expected.
 FindResult Agreeing(const PatternMatches& matches, const FeatureFinderOptions& options) {
   FindResult result;
   for (std::size_t i = 0; i < matches.pairs.size(); ++i) {
@@ -64,7 +66,7 @@ FindResult Agreeing(const PatternMatches& matches, const FeatureFinderOptions& o
   return result;
 }
 
-// `scale`: pixels of the frame per pixel that the fit is in.
+// Applies the fit; `scale` is the frame's pixels per pixel that the fit is in.
 std::vector<route::TrackedFeature> Moved(std::span<const route::TrackedFeature> expected,
                                          const Similarity& fit, double scale) {
   std::vector<route::TrackedFeature> moved;

@@ -5,20 +5,20 @@
 
 namespace trailcast::vision {
 
-// The black surround that some lenses leave (a fisheye's circle on a larger chip), by what has
-// stayed black in all frames so far: what is only dark is lit once the robot has come elsewhere.
-// All frames must have the size of the first.
+// Finds the black surround that some lenses leave (a fisheye's circle on a larger chip) as the
+// pixels that have stayed black in all frames so far. A dark object's pixels light up once the
+// robot has moved. All frames must have the size of the first.
 class LensSurround {
  public:
   void Add(const cv::Mat& frame);
 
-  // As DarkSurround and FieldOfView have it of one frame (frame.h). At least one frame was added.
+  // Both need at least one frame; see DarkSurround and FieldOfView in frame.h.
   [[nodiscard]] bool any() const;
   [[nodiscard]] cv::Mat FieldOfView() const;
 
  private:
   cv::Mat brightest_;  // smoothed
-  cv::Mat smoothed_;   // kept for its memory
+  cv::Mat smoothed_;   // kept to reuse its memory
 };
 
 }  // namespace trailcast::vision

@@ -10,10 +10,10 @@
 namespace trailcast::vision {
 namespace {
 
-// Below this much of a change the frame is searched as it is: the patches bear it.
+// A smaller change of scale needs no resizing, because the patches tolerate it.
 constexpr double kScaleWorthResizing = 0.06;
-// A camera that sees less detail than the scout's sees the patterns blurred: of its own pixels, in
-// which a pattern is that much smaller.
+// A camera that sees less detail than the scout's blurs the patterns, by its own pixels, in which a
+// pattern is smaller.
 constexpr double kPixelSigma = 0.4;
 constexpr double kLeastBlur_px = 0.3;
 constexpr double kLevels = 15.0;  // of a stored pattern
@@ -23,14 +23,15 @@ struct Peak {
   double correlation = 0.0;
 };
 
-// Vertex of the parabola through three equidistant samples, as an offset from the middle one.
+// Returns the vertex of the parabola through three equidistant samples, as an offset from the
+// middle one.
 float ParabolaVertex(float left, float middle, float right) {
   const float curvature = left - 2.0F * middle + right;
   return std::abs(curvature) < 1e-6F ? 0.0F
                                      : std::clamp(0.5F * (left - right) / curvature, -0.5F, 0.5F);
 }
 
-// The stored pattern as a camera of this magnification sees it.
+// Returns the stored pattern as a camera of this magnification sees it.
 cv::Mat PatternOf(const route::Patch& patch, double magnification) {
   cv::Mat stored(route::kPatchSize, route::kPatchSize, CV_8UC1,
                  const_cast<std::uint8_t*>(patch.data()));
@@ -43,7 +44,7 @@ cv::Mat PatternOf(const route::Patch& patch, double magnification) {
   return blurred;
 }
 
-// Best place of the pattern in the window of `picture` around `expected`.
+// Returns the best place of the pattern in the window of `picture` around `expected`.
 std::optional<Peak> BestPlace(const cv::Mat& picture, const cv::Mat& pattern, cv::Point2f expected,
                               cv::Point2f radius) {
   const int half = route::kPatchSize / 2;
@@ -71,7 +72,7 @@ std::optional<Peak> BestPlace(const cv::Mat& picture, const cv::Mat& pattern, cv
   return peak;
 }
 
-// The frame at the scout's magnification.
+// Returns the frame at the scout's magnification.
 cv::Mat AtScoutScale(const cv::Mat& frame, double scale) {
   if (std::abs(scale - 1.0) < kScaleWorthResizing) return frame;
   cv::Mat resized;

@@ -1,6 +1,6 @@
 #pragma once
 
-// For vision's own sources: stored patterns sought in a picture.
+// This header is for vision's own sources: it searches a picture for stored patterns.
 
 #include <opencv2/core.hpp>
 #include <span>
@@ -13,17 +13,17 @@
 
 namespace trailcast::vision {
 
-// What looks most like each of the features sought, if anything looks like it at all.
+// The best match of each feature sought, if anything resembles it at all.
 struct PatternMatches {
-  // Where each was expected and where it was found, from the image centre; pixels of the scout's
-  // magnification.
+  // Each pair has where a feature was expected and where it was found, from the image centre, in
+  // pixels of the scout's magnification.
   std::vector<ViewPair> pairs;
-  std::vector<int> ids;  // one a pair: position in what was sought
+  std::vector<int> ids;  // one for each pair, its position in the list that was sought
   double scale = 1.0;    // pixels of the frame per one of those
   int in_picture = 0;    // how many were expected to be in the picture
 };
 
-// `expected` in pixels of `frame` from its centre.
+// Searches for features that are `expected` in pixels of `frame` from its centre.
 [[nodiscard]] PatternMatches SeekPatterns(const cv::Mat& frame,
                                           std::span<const route::Feature> sought,
                                           std::span<const route::TrackedFeature> expected,

@@ -15,7 +15,7 @@ namespace {
 constexpr double kMostTilt_deg = 20.0;  // off a quarter turn
 constexpr double kLeastTilt_deg = 0.05;
 
-// A roll as quarter turns clockwise and what is left.
+// A roll as quarter turns clockwise and a remainder.
 struct Roll {
   int quarters = 0;  // 0 to 3
   double tilt_deg = 0.0;
@@ -37,7 +37,7 @@ cv::Size Reduced(cv::Size camera, int longest_side_px) {
           std::max(1, cvRound(shrink * camera.height))};
 }
 
-// The largest upright rectangle of the same shape in a picture that is tilted.
+// Returns the largest upright rectangle of the same shape in a tilted picture.
 cv::Size Upright(cv::Size picture, double tilt_deg) {
   const double tilt_rad = std::abs(Radians(tilt_deg));
   const double shape = static_cast<double>(std::max(picture.width, picture.height)) /
@@ -52,7 +52,7 @@ void SetSize(image::GrayImage& image, cv::Size size) {
   image.pixels.resize(image::PixelIndex(0, size.height, size.width));
 }
 
-// From a pixel of the upright rectangle to the tilted picture it is taken from.
+// Maps a pixel of the upright rectangle to the tilted picture from which it is taken.
 cv::Matx23d ToTilted(cv::Size upright, cv::Size tilted, double tilt_deg) {
   const cv::Point2f from = Centre(upright);
   const cv::Point2f to = Centre(tilted);

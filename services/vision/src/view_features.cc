@@ -19,15 +19,16 @@ namespace {
 
 constexpr int kOrbPatch_px = 31;
 constexpr int kOrbEdge_px = 17;
-constexpr int kSmallestSide_px = 40;  // of the picture looked at: ORB's patch has 31
+constexpr int kSmallestSide_px = 40;  // of the reduced picture: ORB's patch has 31
 
-// The size at which all are looked at.
+// Returns the size to which every picture is reduced.
 cv::Size CommonSize(cv::Size frame, int pixels) {
   const double shrink = std::sqrt(pixels / static_cast<double>(frame.area()));
   return {cvRound(frame.width * shrink), cvRound(frame.height * shrink)};
 }
 
-// To that size. A mean over parts of pixels costs ten times what one over two by two does.
+// Shrinks to that size. A mean over fractions of pixels costs ten times as much as one over two by
+// two.
 void Shrink(cv::Mat frame, cv::Size size, cv::Mat& shrunk) {
   while (frame.cols >= 2 * size.width && frame.rows >= 2 * size.height && frame.cols % 2 == 0 &&
          frame.rows % 2 == 0) {
@@ -38,11 +39,11 @@ void Shrink(cv::Mat frame, cv::Size size, cv::Mat& shrunk) {
   cv::resize(frame, shrunk, size, 0, 0, cv::INTER_AREA);
 }
 
-// Nothing of a picture that is too small.
+// Returns nothing for a picture that is too small.
 cv::Mat AtCommonSize(const cv::Mat& frame, int pixels) {
   const cv::Size size = CommonSize(frame.size(), pixels);
   if (std::min(size.width, size.height) < kSmallestSide_px) return {};
-  // What is within a pixel of it may have been reduced to it before.
+  // A picture within a pixel of that size may be one that was reduced before.
   if (std::abs(size.width - frame.cols) <= 1 && std::abs(size.height - frame.rows) <= 1) {
     return frame;
   }
@@ -79,14 +80,14 @@ struct ViewDescriber::State {
   ViewFeatureOptions options;
   cv::Ptr<cv::ORB> orb;
   LensSurround surround;
-  cv::Size size;  // of the pictures looked at
+  cv::Size size;  // of the reduced pictures
 
   [[nodiscard]] cv::Mat Where(const cv::Mat& picture);
 };
 
-// Where to look for features; empty: everywhere.
+// Returns where to look for features; an empty mask means everywhere.
 cv::Mat ViewDescriber::State::Where(const cv::Mat& picture) {
-  if (picture.size() != size) surround = {};  // another camera's, or the same turned
+  if (picture.size() != size) surround = {};  // another camera's, or the same one's turned
   size = picture.size();
   surround.Add(picture);
   return surround.any() ? surround.FieldOfView() : cv::Mat();
@@ -111,7 +112,7 @@ route::View ViewDescriber::Describe(const image::GrayImage& frame) {
   state_->orb->detect(picture, corners, state_->Where(picture));
   for (cv::KeyPoint& corner : corners) corner.angle = 0.0F;
   cv::Mat descriptors;
-  state_->orb->compute(picture, corners, descriptors);  // changes their order
+  state_->orb->compute(picture, corners, descriptors);  // this changes the corners' order
   std::vector<std::size_t> strongest(corners.size());
   std::iota(strongest.begin(), strongest.end(), 0U);
   std::stable_sort(strongest.begin(), strongest.end(), [&](std::size_t a, std::size_t b) {
@@ -133,11 +134,11 @@ route::View ViewDescriber::Describe(const image::GrayImage& frame) {
 }
 
 route::View DescribeForQuery(const image::GrayImage& frame) {
-  // Together four octaves and a half, each a describer's pyramid.
+  // Together these cover four octaves and a half, each with a describer's pyramid.
   constexpr std::array kEnlarged = {2.5, 1.21, 0.58, 0.28};
   constexpr int kLevels = 4;
   constexpr std::size_t kAsScouts = 200;
-  constexpr int kDescribed = 240;  // of which those are taken that are spread over the picture
+  constexpr int kDescribed = 240;  // of these, features that are spread over the picture are taken
   constexpr std::size_t kOfEach = 160;
   static_assert(kAsScouts + kOfEach * kEnlarged.size() == route::kMaxViewFeatures);
   DonutUnroller unroller;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kShortestBase_px = 8.0;  // a scale from two features closer than this is noise
 
-// The scale and shift that carry two pairs over exactly (their scale in the least-squares sense).
+// Returns the scale and shift that map two pairs exactly (their scale in the least-squares sense).
 std::optional<ViewFit> FitTwo(const ViewPair& a, const ViewPair& b) {
   const double su = b.scout_u_px - a.scout_u_px;
   const double sv = b.scout_v_px - a.scout_v_px;
@@ -75,7 +75,7 @@ ViewFitResult FitView(const std::vector<ViewPair>& pairs, const ViewFitOptions& 
     if (inliers > best.inliers) best = {*fit, std::move(inlier), inliers};
   }
   if (best.inliers < 2) return best;
-  // Pairs that lie close together for their tolerance may pull the scale anywhere, below zero too.
+  // Pairs that lie close together for their tolerance can pull the scale anywhere, even below zero.
   const ViewFit refined = LeastSquares(pairs, best.inlier);
   if (IsWithin(refined, options)) best.fit = refined;
   return best;
