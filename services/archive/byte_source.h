@@ -10,7 +10,7 @@
 
 namespace trailcast::archive {
 
-// Bytes at rest of a known number, read where asked.
+// A known number of bytes that do not change and can be read at any place.
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
@@ -19,8 +19,8 @@ class ByteSource {
 
   [[nodiscard]] virtual const std::string& name() const = 0;  // for messages
   [[nodiscard]] virtual std::uint64_t size() const = 0;
-  // Fills `out` from `offset` on, which must lie within size(). kUnavailable naming the source when
-  // it cannot be read, or has become shorter since.
+  // Fills `out` from `offset` on, which must lie within size(). kUnavailable names the source if it
+  // cannot be read, or has become shorter since.
   [[nodiscard]] virtual Result<void> Read(std::uint64_t offset,
                                           std::span<std::uint8_t> out) const = 0;
 
@@ -28,10 +28,10 @@ class ByteSource {
   ByteSource() = default;
 };
 
-// kNotFound without such a file, kInvalidArgument for a folder, a pipe or a device, kUnavailable
-// when it cannot be opened.
+// Errors: kNotFound without such a file, kInvalidArgument for a folder, a pipe or a device,
+// kUnavailable if it cannot be opened.
 [[nodiscard]] Result<std::unique_ptr<ByteSource>> OpenFile(const std::filesystem::path& path);
-// `bytes` outlive the source.
+// Reads from memory; `bytes` must outlive the source.
 [[nodiscard]] std::unique_ptr<ByteSource> FromMemory(std::span<const std::uint8_t> bytes);
 
 }  // namespace trailcast::archive

@@ -13,26 +13,26 @@
 namespace trailcast::archive {
 
 inline constexpr std::uint32_t kFileVersion = 1;
-// Larger files are neither written nor read: 300 km of route.
+// Larger files are neither written nor read; this is enough for 300 km of route.
 inline constexpr std::uint64_t kMaxFileBytes = 1ULL << 30U;
 
-// A complete route in one file, open for reading. Whatever is wrong with a file is found when it is
-// opened: then every byte has been read and checked, every segment decoded. Memory: 48 bytes a
+// A complete route in one file, open for reading. Open finds whatever is wrong with the file,
+// because it reads and checks every byte and decodes every segment. It takes 48 bytes of memory a
 // segment, and one segment at a time.
 class RouteFile {
  public:
-  // kCorrupt, naming the file, what was found and what was expected, for anything but a whole route
-  // file; else as OpenFile.
+  // Opens a file. Anything but a whole route file is kCorrupt, which names the file, what was found
+  // and what was expected; other errors are those of OpenFile.
   [[nodiscard]] static Result<RouteFile> Open(const std::filesystem::path& path);
-  // The same of bytes in memory, which outlive what is returned.
+  // Does the same with bytes in memory, which must outlive the result.
   [[nodiscard]] static Result<RouteFile> Open(std::span<const std::uint8_t> bytes);
 
-  // kComplete, within the bounds of what is accepted from a peer.
+  // The route is kComplete and within the bounds of what is accepted from a peer.
   [[nodiscard]] const route::RouteInfo& info() const { return info_; }
   [[nodiscard]] std::uint64_t file_bytes() const { return source_->size(); }
-  // Of its segments, in order.
+  // Returns its segments' digests, in order.
   [[nodiscard]] std::vector<route::Digest> digests() const;
-  // kNotFound beyond the route's end; kCorrupt if the file was changed since it was opened.
+  // Errors: kNotFound beyond the route's end, kCorrupt if the file was changed since it was opened.
   [[nodiscard]] Result<route::SegmentPiece> ReadSegment(SegmentIndex index) const;
 
  private:

@@ -11,29 +11,30 @@
 
 namespace trailcast::archive {
 
-// Writes a complete route as one file: under another name beside it until all of it is on the disk
-// and was read back, so that there is the whole file or none. Equal routes give equal files.
+// Writes a complete route as one file. It writes to another name beside the file until every byte
+// is on the disk and was read back, so that there is a whole file or none. Equal routes give equal
+// files.
 class RouteFileWriter {
  public:
   enum class Existing : std::uint8_t { kKeep, kReplace };
 
-  // kInvalidArgument for a route that is not complete or out of bounds; kConflict when `path` is
-  // there already and shall be kept, or is no file; kUnavailable when its folder cannot be written.
+  // Errors: kInvalidArgument for a route that is not complete or out of bounds; kConflict if `path`
+  // exists and must be kept, or is no file; kUnavailable if its folder cannot be written.
   [[nodiscard]] static Result<RouteFileWriter> Create(std::filesystem::path path,
                                                       const route::RouteInfo& info,
                                                       Existing existing);
-  // Without Finish nothing is left behind.
+  // Without Finish, nothing is left behind.
   ~RouteFileWriter();
   RouteFileWriter(RouteFileWriter&& other) noexcept;
   RouteFileWriter& operator=(RouteFileWriter&&) = delete;
   RouteFileWriter(const RouteFileWriter&) = delete;
   RouteFileWriter& operator=(const RouteFileWriter&) = delete;
 
-  // The next segment in order of index: kInvalidArgument for any other. kCorrupt if its bytes fail
-  // their digest; kUnavailable when the disk is full.
+  // Adds the next segment in order of index; any other is kInvalidArgument. Bytes that do not match
+  // their digest are kCorrupt; a full disk is kUnavailable.
   [[nodiscard]] Result<void> Add(const route::SegmentPiece& piece);
-  // All segments were added: on disk under its name when this returns. Returns the file's size.
-  // kCorrupt when they do not make up the route.
+  // Completes the file once all segments were added, and returns its size. The file is on the disk
+  // under its name when this returns. Segments that do not make up the route are kCorrupt.
   [[nodiscard]] Result<std::uint64_t> Finish();
 
  private:
@@ -46,7 +47,7 @@ class RouteFileWriter {
   [[nodiscard]] tl::unexpected<Error> CannotWrite(int error) const;
 
   std::filesystem::path path_;
-  std::filesystem::path part_;  // its name until it is whole; empty: there is none
+  std::filesystem::path part_;  // its name until it is whole; empty if there is no such file
   route::RouteInfo info_;
   Existing existing_;
   int descriptor_ = -1;

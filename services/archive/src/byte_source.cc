@@ -75,7 +75,7 @@ class MemorySource final : public ByteSource {
 }  // namespace
 
 Result<std::unique_ptr<ByteSource>> OpenFile(const std::filesystem::path& path) {
-  // Without O_NONBLOCK a pipe that nobody writes would hold us up.
+  // Without O_NONBLOCK, opening a pipe that nobody writes would block.
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) {
     const int error = errno;

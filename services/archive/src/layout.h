@@ -35,7 +35,8 @@ inline void AppendNumber(route::Bytes& out, std::uint64_t value, std::size_t byt
   return value;
 }
 
-// What a file says of a route: what operators made of it where it was written stays there.
+// Returns a route's description as a file has it. Operators' decisions about the route stay at the
+// server where they were made.
 [[nodiscard]] inline route::RouteInfo AsTaught(route::RouteInfo info) {
   info.standing = route::Standing::kStaged;
   info.edition = 0;

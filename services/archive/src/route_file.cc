@@ -13,8 +13,8 @@
 
 namespace trailcast::archive {
 
-// Reads a file from its beginning to its end, and believes nothing: the checksum tells damage, and
-// everything after it is for files that were made to deceive.
+// Reads a file from its beginning to its end without trusting any of it. The checksum finds damage;
+// the other checks find files that were made to deceive.
 class RouteFileChecker {
  public:
   explicit RouteFileChecker(RouteFile& file) : file_(file), source_(*file.source_) {}
@@ -176,8 +176,8 @@ class RouteFileChecker {
   RouteFile& file_;
   const ByteSource& source_;
   std::uint64_t info_bytes_ = 0;
-  std::uint64_t at_ = 0;   // how far it is read
-  std::uint64_t end_ = 0;  // of the segments; the checksum follows
+  std::uint64_t at_ = 0;   // everything before this is read
+  std::uint64_t end_ = 0;  // end of the segments; the checksum follows
 };
 
 Result<RouteFile> RouteFile::Check(std::unique_ptr<ByteSource> source) {

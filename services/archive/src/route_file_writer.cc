@@ -136,10 +136,10 @@ Result<void> RouteFileWriter::Add(const route::SegmentPiece& piece) {
 
 Result<std::uint64_t> RouteFileWriter::Finish() {
   const route::Digest checksum = hash_.Finish();
-  hash_ = {};  // the checksum is not part of what it is of
+  hash_ = {};  // the checksum does not cover itself
   if (auto written = Write(checksum); !written) return tl::unexpected(written.error());
   if (auto closed = Close(); !closed) return tl::unexpected(closed.error());
-  // What nobody could import is not kept.
+  // A file that nobody could import is not kept.
   if (const auto whole = RouteFile::Open(part_); !whole) {
     return Wrap(whole.error(), "route '" + info_.name + "' is not as its description says");
   }
@@ -161,7 +161,7 @@ Result<void> RouteFileWriter::Write(std::span<const std::uint8_t> bytes) {
 
 Result<void> RouteFileWriter::Close() {
   if (fsync(descriptor_) != 0) return CannotWrite(errno);
-  // Some file systems tell only now that there is no room.
+  // Some file systems report only here that the disk is full.
   if (close(std::exchange(descriptor_, -1)) != 0) return CannotWrite(errno);
   return {};
 }
@@ -170,14 +170,15 @@ Result<void> RouteFileWriter::TakeName() {
   const unsigned flags = existing_ == Existing::kKeep ? RENAME_NOREPLACE : 0U;
   int status = renameat2(AT_FDCWD, part_.c_str(), AT_FDCWD, path_.c_str(), flags);
   if (status != 0 && (errno == EINVAL || errno == ENOSYS)) {
-    // A file system that cannot do this in one step: looked at once more instead.
+    // Some file systems cannot do this in one step, so the place is checked once more instead.
     if (auto free = CheckPlace(path_, existing_); !free) return free;
     status = std::rename(part_.c_str(), path_.c_str());
   }
   if (status != 0 && errno == EEXIST) return IsThere(path_);
   if (status != 0) return CannotWrite(errno);
   part_.clear();
-  // The name outlasts a loss of power, too; where folders cannot be synchronised the file does.
+  // This makes the name outlast a loss of power, too. Where folders cannot be synchronised, the
+  // file's contents still do.
   std::ignore = SyncToDisk(FolderOf(path_));
   return {};
 }
