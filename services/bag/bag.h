@@ -12,8 +12,8 @@
 
 #include "services/base/result.h"
 
-// Drives that a robot's own tools recorded: rosbag2's SQLite files (.db3) and MCAP files, one or a
-// folder of them, as they are or compressed. Read with no ROS installed.
+// This library reads drives that a robot's own tools recorded: one or a folder of rosbag2's SQLite
+// files (.db3) or MCAP files, compressed or not. It needs no ROS.
 namespace trailcast::bag {
 
 struct Topic {
@@ -25,19 +25,20 @@ struct Topic {
 
 struct Message {
   std::chrono::nanoseconds logged_at{};  // by the recorder's clock
-  std::span<const std::uint8_t> bytes;   // until the next message is asked for
+  std::span<const std::uint8_t> bytes;   // valid until the next message is asked for
 };
 
-// One topic at a time is read, as often as wanted. What is damaged is passed over and noted, so
-// that a file that was cut off, or has bad bytes in it, gives what is whole.
+// Reads one topic at a time, as often as wanted. It passes over damage and notes it, so that a file
+// that was cut off or has bad bytes still gives all that is whole.
 class Bag {
  public:
-  // Told what takes a while: files that are unpacked first, files without a list of contents.
+  // Called with what takes a while: unpacking a file, or reading one that has no list of contents.
   using Tell = std::function<void(const std::string& what)>;
 
-  // kNotFound, kInvalidArgument: there is no such recording, or none of these formats.
-  // `most_growth`: of an MCAP's chunks no more is unpacked, each time it is read, than that many
-  // times its size and kFreeBytes; what more there is counts as damage. Nothing: any amount.
+  // Errors: kNotFound if there is no such recording, kInvalidArgument if it has none of these
+  // formats. `most_growth` bounds how much of an MCAP's chunks each reading unpacks: that many
+  // times the file's size, and kFreeBytes. Anything beyond counts as damage. Without it there is no
+  // bound.
   [[nodiscard]] static Result<std::unique_ptr<Bag>> Open(
       const std::filesystem::path& file_or_folder, const Tell& tell,
       std::optional<std::uint64_t> most_growth = std::nullopt);
@@ -46,21 +47,21 @@ class Bag {
   Bag(const Bag&) = delete;
   Bag& operator=(const Bag&) = delete;
 
-  // In the order of their names. Two types under one name are two topics.
+  // The topics in the order of their names. Two types under one name are two topics.
   [[nodiscard]] const std::vector<Topic>& topics() const { return topics_; }
 
-  // From now on Next gives that topic's messages, from the first that was recorded then or later;
-  // what lies before is not unpacked.
+  // Makes Next give that topic's messages, from the first that was recorded at `from` or later.
+  // Earlier ones are not unpacked.
   void Begin(const Topic& topic, std::chrono::nanoseconds from = {});
-  // In the order in which they were recorded; nothing at the end. An error: a file that cannot be
-  // read any more.
+  // Returns messages in the order in which they were recorded, and nothing at the end. A file that
+  // cannot be read any more is an error.
   [[nodiscard]] Result<std::optional<Message>> Next();
 
-  // When the last message of all was recorded.
+  // Returns when the last message of all topics was recorded.
   [[nodiscard]] std::chrono::nanoseconds last_at() const;
 
-  // What was found damaged so far, or otherwise than a folder's metadata.yaml has it, a line each:
-  // file, place, what. At most kMostDamage of them.
+  // Returns the damage found so far, and differences from a folder's metadata.yaml, as lines with
+  // file, place and finding. There are at most kMostDamage of them.
   [[nodiscard]] const std::vector<std::string>& damage() const { return damage_; }
   static constexpr std::size_t kMostDamage = 20;
 

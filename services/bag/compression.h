@@ -16,23 +16,24 @@ using Bytes = std::vector<std::uint8_t>;
 
 enum class Compression : std::uint8_t { kNone, kLz4, kZstd };
 
-// As MCAP names them: "", "lz4" (in frames), "zstd".
+// Names are those of MCAP: "", "lz4" (in frames), "zstd".
 [[nodiscard]] const char* NameOf(Compression compression);
 [[nodiscard]] std::optional<Compression> FindCompression(std::string_view name);
 
 [[nodiscard]] Bytes Compress(Compression compression, std::span<const std::uint8_t> bytes);
 
 struct Decompressed {
-  Bytes bytes;         // as many as could be had, at most the bound
-  bool whole = false;  // the end was reached, within the bound
+  Bytes bytes;         // as many as could be unpacked, up to the bound
+  bool whole = false;  // the end was reached within the bound
 };
-// Makes room as it goes, never for what is only promised.
+// Unpacks bytes. It allocates memory as it goes, never for a size that is only promised.
 [[nodiscard]] Decompressed Decompress(Compression compression, std::span<const std::uint8_t> bytes,
                                       std::uint64_t most_bytes);
 
 [[nodiscard]] bool IsZstd(std::span<const std::uint8_t> bytes);
-// A whole file; true: to its end, false: it breaks off, and what was before that is written. Error:
-// a disk that is full, more than a thousand times the file's size.
+// Unpacks a whole file. Returns true if it reached the end, and false if the file breaks off; the
+// part before that is written. Errors: the disk is full, or the result has more than a thousand
+// times the file's size.
 [[nodiscard]] Result<bool> DecompressZstdFile(const std::filesystem::path& from,
                                               const std::filesystem::path& to);
 

@@ -13,26 +13,27 @@
 
 namespace trailcast::bag {
 
-// Makes an MCAP file's bytes, from its first to its last, in chunks with an index: players seek in
-// it, and of a file that was cut off all but the last chunk is whole. No disk, no clock.
+// Makes an MCAP file's bytes from its first to its last, in chunks with an index. Players can
+// therefore seek in it, and a file that was cut off loses only its last chunk. It uses no disk and
+// no clock.
 class McapWriter {
  public:
   using Id = std::uint16_t;
 
   McapWriter(Compression compression, std::string_view profile);
 
-  // `encoding` and `description`: as the MCAP registry says ("protobuf", a FileDescriptorSet).
+  // `encoding` and `description` follow the MCAP registry ("protobuf", a FileDescriptorSet).
   Id AddSchema(std::string_view name, std::string_view encoding,
                std::span<const std::uint8_t> description);
   Id AddChannel(Id schema, std::string_view topic, std::string_view message_encoding);
-  // `at`: not negative.
+  // `at` must not be negative.
   void Put(Id channel, std::chrono::nanoseconds at, std::span<const std::uint8_t> bytes);
-  // Ends the chunk that is being filled; they also end by themselves, at a megabyte.
+  // Ends the chunk that is being filled. Chunks also end by themselves, at a megabyte.
   void EndChunk();
-  // The last thing to be done.
+  // Ends the file; nothing may be put after it.
   void End();
 
-  // What has been made since the last time.
+  // Returns the bytes made since the last call.
   [[nodiscard]] Bytes TakeBytes() { return std::exchange(bytes_, {}); }
 
  private:
@@ -56,7 +57,7 @@ class McapWriter {
   Bytes chunk_;               // records
   Times in_chunk_;
   std::map<Id, std::vector<Place>> places_;  // of the chunk's messages
-  Bytes descriptions_;                       // schemas and channels, again for the summary
+  Bytes descriptions_;                       // schemas and channels, to repeat in the summary
   Bytes chunk_indexes_;
   std::uint32_t chunks_ = 0;
   Id schemas_ = 0;

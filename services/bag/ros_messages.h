@@ -9,8 +9,9 @@
 #include "services/image/raw_picture.h"
 #include "services/motion/motion.h"
 
-// The messages of ROS 2 that a recorded drive is made of, out of their CDR bytes, either byte
-// order, encoding 1 or 2. What they hold of bytes lies in the message's and lives as long.
+// These functions decode the ROS 2 messages of a recorded drive from their CDR bytes, in either
+// byte order and encoding 1 or 2. Bytes in the results are views into the message's and live as
+// long.
 namespace trailcast::bag {
 
 inline constexpr const char* kImageType = "sensor_msgs/Image";
@@ -18,7 +19,7 @@ inline constexpr const char* kCompressedImageType = "sensor_msgs/CompressedImage
 inline constexpr const char* kOdometryType = "nav_msgs/Odometry";
 inline constexpr const char* kTwistType = "geometry_msgs/Twist";
 inline constexpr const char* kTwistStampedType = "geometry_msgs/TwistStamped";
-// As above, without the "msg/" that a ROS 2 type has in the middle.
+// Returns the type without the "msg/" that ROS 2 has in the middle.
 [[nodiscard]] std::string PlainType(const std::string& type);
 
 struct RosImage {
@@ -34,11 +35,11 @@ struct RosOdometry {
   motion::Pose2 pose;  // in the odometry's own frame
 };
 
-// Errors are kCorrupt: bytes that are too few for what they say, numbers that are none.
+// Errors are kCorrupt: the message has fewer bytes than it says, or numbers that are not finite.
 [[nodiscard]] Result<RosImage> ReadImage(std::span<const std::uint8_t> message);
 [[nodiscard]] Result<RosCompressedImage> ReadCompressedImage(std::span<const std::uint8_t> message);
 [[nodiscard]] Result<RosOdometry> ReadOdometry(std::span<const std::uint8_t> message);
-// Of either type.
+// Reads Twist or TwistStamped.
 [[nodiscard]] Result<motion::VelocityCommand> ReadTwist(std::span<const std::uint8_t> message,
                                                         bool stamped);
 

@@ -41,7 +41,7 @@ Result<std::unique_ptr<BagFile>> OpenAs(const fs::path& file) {
   return std::unique_ptr<BagFile>(std::move(*opened));
 }
 
-// By what it begins with, whatever it is called.
+// The file's beginning decides its format, whatever its name is.
 Result<std::unique_ptr<BagFile>> OpenFile(const fs::path& file) {
   const Bytes beginning = Beginning(file);
   if (beginning.size() >= kMcapMagic.size() &&
@@ -105,7 +105,7 @@ Result<std::unique_ptr<Bag>> Bag::Open(const fs::path& file_or_folder, const Tel
   return bag;
 }
 
-// Where it lies to be read: itself, or, of one that is compressed, a copy that is not.
+// Returns the file to read: the part itself or, if it is compressed, an unpacked copy.
 Result<fs::path> Bag::Unpack(Part& part, const Tell& tell) {
   if (!IsZstd(Beginning(part.name))) return part.name;
   tell(fmt::format("unpacking {}", part.name.string()));
@@ -117,7 +117,7 @@ Result<fs::path> Bag::Unpack(Part& part, const Tell& tell) {
   return plain;
 }
 
-// A database that was cut off within a page, or a copy of it, without the rest of that page.
+// Returns a database, or a copy without its last page if that was cut off.
 Result<fs::path> Bag::CutToPages(Part& part, const fs::path& plain, const Tell& tell) {
   std::error_code failed;
   const Bytes beginning = Beginning(plain);
@@ -164,7 +164,7 @@ Result<void> Bag::Add(const fs::path& file, const Tell& tell,
   return {};
 }
 
-// The same topic of all files and channels is one.
+// A topic of the same name and type in several files and channels is one.
 void Bag::Collect() {
   for (const Part& part : parts_) {
     for (const Topic& topic : part.contents.topics) {
@@ -205,7 +205,7 @@ Result<std::optional<Message>> Bag::Next() {
   return std::nullopt;
 }
 
-// Each once, however often the file is read.
+// Damage is noted once, however often the file is read.
 void Bag::NoteDamage(Part& part) {
   for (const std::string& what : part.file->TakeDamage()) {
     Note(part.name.filename().string() + ": " + what);

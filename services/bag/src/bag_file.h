@@ -9,11 +9,11 @@
 
 namespace trailcast::bag {
 
-// What a file says of itself, or what was counted in it.
+// A file's list of contents, or what was counted in the file.
 struct Contents {
   std::vector<Topic> topics;
-  std::chrono::nanoseconds first_at{};  // when its first message was recorded,
-  std::chrono::nanoseconds last_at{};   // and its last
+  std::chrono::nanoseconds first_at{};  // recording time of its first message,
+  std::chrono::nanoseconds last_at{};   // and of its last
 };
 
 // One file of a recording.
@@ -27,10 +27,10 @@ class BagFile {
   virtual void Begin(const Topic& topic, std::chrono::nanoseconds from) = 0;
   [[nodiscard]] virtual Result<std::optional<Message>> Next() = 0;
 
-  // See Bag::Open.
+  // Bounds unpacking; see Bag::Open.
   void Bound(std::optional<std::uint64_t> most_growth) { most_growth_ = most_growth; }
 
-  // What was found damaged since the last time.
+  // Returns the damage found since the last call.
   [[nodiscard]] std::vector<std::string> TakeDamage() { return std::exchange(damage_, {}); }
 
  protected:
@@ -38,7 +38,7 @@ class BagFile {
   void NoteDamage(std::string what) {
     if (damage_.size() < Bag::kMostDamage) damage_.push_back(std::move(what));
   }
-  // That so much of a file of that size is not too much.
+  // Says whether unpacking so many bytes of a file of that size is within the bound.
   [[nodiscard]] bool MayUnpack(std::uint64_t bytes, std::uint64_t size) const {
     return !most_growth_ || bytes <= *most_growth_ * size + Bag::kFreeBytes;
   }
@@ -48,7 +48,7 @@ class BagFile {
   std::optional<std::uint64_t> most_growth_;
 };
 
-// A message of more bytes is damage: a picture of 30 megapixels in colour is less.
+// A larger message is damage: a picture of 30 megapixels in colour is smaller.
 inline constexpr std::size_t kMostMessageBytes = std::size_t{100} << 20U;
 
 }  // namespace trailcast::bag

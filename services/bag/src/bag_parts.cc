@@ -26,8 +26,8 @@ std::optional<std::uint64_t> NumberIn(const std::string& text) {
   return error == std::errc() ? std::optional(number) : std::nullopt;
 }
 
-// Below "relative_file_paths:" one name a line, as "    - drive_0.db3". Some versions put the
-// folder's name before it. The first "message_count:" is that of all messages.
+// Below "relative_file_paths:" there is one name a line, as "    - drive_0.db3". Some versions put
+// the folder's name before it. The first "message_count:" counts all messages.
 Metadata ReadMetadata(const fs::path& file) {
   const std::string count = "message_count:";
   Metadata metadata;
@@ -53,19 +53,19 @@ Metadata ReadMetadata(const fs::path& file) {
   return metadata;
 }
 
-// Without what says that it is compressed.
+// Returns the file's name without the ending that says it is compressed.
 fs::path PlainName(const fs::path& file) {
   return file.extension() == ".zstd" ? file.stem() : file.filename();
 }
 
-// macOS keeps what it knows of a file in a hidden one beside it, of the same ending.
+// macOS keeps its notes on a file in a hidden one beside it with the same ending.
 bool IsPart(const fs::path& file) {
   const fs::path name = PlainName(file);
   return name.string().front() != '.' &&
          (name.extension() == ".db3" || name.extension() == ".mcap");
 }
 
-// "drive" of "drive_12.db3", as recorders number the files of one recording.
+// Returns "drive" for "drive_12.db3": recorders number the files of one recording.
 std::string SeriesOf(const fs::path& file) {
   const std::string stem = PlainName(file).stem().string();
   const std::size_t number = stem.find_last_not_of("0123456789");
@@ -74,7 +74,7 @@ std::string SeriesOf(const fs::path& file) {
   return numbered ? stem.substr(0, number) : stem;
 }
 
-// 12 of "drive_12.db3"; not of a date or a time, which recorders put there, too.
+// Returns 12 for "drive_12.db3", and nothing for a date or a time, which recorders use as well.
 std::optional<std::uint64_t> NumberInSeries(const fs::path& file) {
   constexpr std::size_t kMostDigits = 4;
   const std::string stem = PlainName(file).stem().string();
@@ -83,7 +83,7 @@ std::optional<std::uint64_t> NumberInSeries(const fs::path& file) {
   return NumberIn(stem.substr(from));
 }
 
-// What nothing lists can be seen to lack something only by its numbers.
+// Gaps in the numbers are the only sign that an unlisted file is missing.
 void NoteGaps(const std::set<fs::path>& listed, BagParts& parts) {
   std::map<std::pair<std::string, std::uint64_t>, fs::path> numbered;
   const auto add = [&](const fs::path& file) {
@@ -106,7 +106,7 @@ void NoteGaps(const std::set<fs::path>& listed, BagParts& parts) {
   }
 }
 
-// Players unpack files beside themselves.
+// Players unpack files beside the packed ones.
 std::optional<fs::path> PackedOrNot(const fs::path& file) {
   std::error_code unknown;
   if (fs::exists(file, unknown)) return file;
@@ -115,7 +115,7 @@ std::optional<fs::path> PackedOrNot(const fs::path& file) {
   return fs::exists(unpacked, unknown) ? std::optional(unpacked) : std::nullopt;
 }
 
-// All recordings there are, each once.
+// Returns all recordings in the folder, each once.
 std::vector<fs::path> RecordingsIn(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code failed;
@@ -130,8 +130,8 @@ std::vector<fs::path> RecordingsIn(const fs::path& folder) {
   return files;
 }
 
-// Metadata is written when a recording ends: it may be older than the files, or name them as they
-// were called then. Where listed files are missing, those that are not listed are theirs.
+// Metadata is written when a recording ends, so it may be older than the files or have their former
+// names. If listed files are missing, unlisted ones take their place.
 BagParts OfFolder(const fs::path& folder) {
   BagParts parts;
   const Metadata metadata = ReadMetadata(folder / "metadata.yaml");

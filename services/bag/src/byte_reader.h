@@ -7,8 +7,8 @@
 
 namespace trailcast::bag {
 
-// Little-endian numbers and texts out of bytes that nobody vouches for: what is not there is 0 or
-// empty, and from then on the reader has failed.
+// Takes little-endian numbers and texts out of bytes that may be damaged. If bytes are missing, the
+// value is 0 or empty, and the reader has failed from then on.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes) : left_(bytes) {}
@@ -32,7 +32,7 @@ class ByteReader {
     left_ = left_.subspan(bytes.size());
     return bytes;
   }
-  // Four bytes of length, then so many.
+  // A text has four bytes of length and then its bytes.
   [[nodiscard]] std::string TakeText() {
     const auto bytes = TakeBytes(Take<std::uint32_t>());
     return {bytes.begin(), bytes.end()};

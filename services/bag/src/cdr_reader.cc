@@ -6,7 +6,7 @@ namespace trailcast::bag {
 namespace {
 
 constexpr std::size_t kEncapsulationBytes = 4;
-// The second byte says how plain types are encoded (the first is 0).
+// The second byte says how plain types are encoded; the first is 0.
 constexpr std::uint8_t kCdrBigEndian = 0;
 constexpr std::uint8_t kCdrLittleEndian = 1;
 constexpr std::uint8_t kCdr2BigEndian = 6;

@@ -8,9 +8,10 @@
 
 namespace trailcast::bag {
 
-// CDR (OMG DDS-XTYPES 7.4) as far as ROS 2's messages need it: numbers aligned to their size,
-// counted from after the four bytes that say how all is encoded; encoding 2 aligns to four at most.
-// What is not there is 0 or empty, and from then on the reader has failed.
+// Reads CDR (OMG DDS-XTYPES, section 7.4) as far as ROS 2's messages need it. Numbers are aligned
+// to their size, counted from after the four bytes that tell the encoding; encoding 2 aligns to
+// four at most. If bytes are missing, the value is 0 or empty, and the reader has failed from then
+// on.
 class CdrReader {
  public:
   explicit CdrReader(std::span<const std::uint8_t> message);
@@ -26,7 +27,7 @@ class CdrReader {
     return static_cast<Number>(number);
   }
   [[nodiscard]] double TakeDouble() { return std::bit_cast<double>(Take<std::uint64_t>()); }
-  // Its length, which counts the final 0, then its bytes.
+  // A text has its length, which counts the final 0, and then its bytes.
   [[nodiscard]] std::string TakeText();
   // A sequence of octets.
   [[nodiscard]] std::span<const std::uint8_t> TakeOctets() {

@@ -22,7 +22,7 @@ struct FreeZstd {
   void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
 };
 
-// What a decompressor did with what it was given.
+// How far a decompressor came with its input and its output.
 struct Progress {
   std::size_t read = 0;
   std::size_t written = 0;
@@ -76,7 +76,7 @@ Decompressed Run(std::span<const std::uint8_t> from, std::uint64_t most_bytes) {
   Decompressed result;
   std::size_t size = 0;
   while (true) {
-    // One byte more than may be, to see whether there is more.
+    // The room has one byte more than is allowed, so that an excess shows.
     const std::uint64_t room = std::min<std::uint64_t>(kStep, most_bytes + 1 - size);
     result.bytes.resize(size + static_cast<std::size_t>(room));
     const Progress step = stream.Step(from, std::span(result.bytes).subspan(size));
@@ -140,7 +140,7 @@ bool IsZstd(std::span<const std::uint8_t> bytes) {
 
 Result<bool> DecompressZstdFile(const std::filesystem::path& from,
                                 const std::filesystem::path& to) {
-  constexpr std::uint64_t kMostTimes = 1000;  // pictures never shrink as much
+  constexpr std::uint64_t kMostTimes = 1000;  // pictures never shrink that much
   std::error_code unknown;
   const std::uint64_t most = 16 * kStep + kMostTimes * std::filesystem::file_size(from, unknown);
   std::ifstream in(from, std::ios::binary);

@@ -6,7 +6,8 @@
 namespace trailcast::bag {
 namespace {
 
-// Eight bytes a step ("slicing by 8"): table k has the effect of a byte that k more bytes follow.
+// Each step takes eight bytes ("slicing by 8"): table k has the effect of a byte that k more bytes
+// follow.
 constexpr std::size_t kSlices = 8;
 using Tables = std::array<std::array<std::uint32_t, 256>, kSlices>;
 

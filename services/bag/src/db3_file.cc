@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kDamaged = "messages that cannot be read: the file is damaged or cut off";
 constexpr const char* kNoLog = "the newest messages, in the file -wal beside it, cannot be read";
-// Rows are numbered one by one; nobody recorded more.
+// Rows are numbered one by one, and no recording has more.
 constexpr std::int64_t kFarthestJump = std::int64_t{1} << 40U;
 
 bool IsDamage(const SQLite::Exception& exception) {
@@ -31,13 +31,14 @@ std::string Uri(const std::filesystem::path& file) {
   return uri;
 }
 
-// How a file is opened, by what is beside it and what may be written there.
+// How a file is opened. This depends on what is beside it and on whether anything may be written
+// there.
 enum class Way {
-  kShared,  // with its log, together with a recorder that still writes
-  // With its log, where nothing can be written, as on a read-only disk: no file of shared memory,
-  // which only one who has the file for himself can do without, and no locks.
+  kShared,  // with its log, while a recorder may still write
+  // With its log on a read-only disk. SQLite then does without the file of shared memory, which
+  // requires that it has the database to itself, and without locks.
   kAlone,
-  kWithoutLog,  // as one that nobody writes, so that nothing is written beside it either
+  kWithoutLog,  // as a file that nobody writes, so that SQLite writes nothing beside it
 };
 
 std::unique_ptr<SQLite::Database> OpenWith(const std::filesystem::path& file, Way way) {
@@ -49,11 +50,12 @@ std::unique_ptr<SQLite::Database> OpenWith(const std::filesystem::path& file, Wa
   sqlite3_limit(db->getHandle(), SQLITE_LIMIT_LENGTH, static_cast<int>(kMostMessageBytes));
   db->exec("PRAGMA trusted_schema = OFF");
   db->exec("PRAGMA cell_size_check = ON");
-  db->exec("PRAGMA writable_schema = ON");  // a file shorter than it says is read nevertheless
+  db->exec("PRAGMA writable_schema = ON");  // a file that is shorter than its header says can then
+                                            // be read
   return db;
 }
 
-// A view or a virtual table by these names may do anything.
+// A view or a virtual table with these names could run anything.
 bool HasTables(SQLite::Database& db) {
   SQLite::Statement count(db,
                           "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN "
@@ -104,7 +106,8 @@ Result<std::unique_ptr<Db3File>> Db3File::Open(const std::filesystem::path& file
 }
 
 std::uintmax_t Db3File::WholeBytes(std::uintmax_t size, std::span<const std::uint8_t> beginning) {
-  // https://www.sqlite.org/fileformat.html, 1.3: two bytes, big-endian; 1 stands for 65536.
+  // https://www.sqlite.org/fileformat.html, section 1.3: the page size has two bytes, big-endian; 1
+  // stands for 65536.
   constexpr std::size_t kPageSizeAt = 16;
   if (beginning.size() < kPageSizeAt + 2) return size;
   const unsigned stored = beginning[kPageSizeAt] * 256U + beginning[kPageSizeAt + 1];

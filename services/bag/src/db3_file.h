@@ -12,13 +12,14 @@
 
 namespace trailcast::bag {
 
-// A file of rosbag2's SQLite storage, of any version: of its tables only the columns that all have
-// are looked at. Messages may be compressed one by one. Rows on damaged pages are left out.
+// A file of rosbag2's SQLite storage, of any version, because it reads only the columns that all
+// versions have. Messages may be compressed one by one. Rows on damaged pages are left out.
 class Db3File final : public BagFile {
  public:
   [[nodiscard]] static Result<std::unique_ptr<Db3File>> Open(const std::filesystem::path& file);
 
-  // How much of it are whole pages. SQLite reads one that was cut through, with zeros for the rest.
+  // Returns how many bytes are whole pages. SQLite would read a page that was cut through with
+  // zeros for the missing part.
   [[nodiscard]] static std::uintmax_t WholeBytes(std::uintmax_t size,
                                                  std::span<const std::uint8_t> beginning);
 
@@ -30,7 +31,7 @@ class Db3File final : public BagFile {
   Db3File(std::unique_ptr<SQLite::Database> db, std::map<std::int64_t, Topic> topics)
       : db_(std::move(db)), topics_(std::move(topics)) {}
 
-  // Steps to the next row of `rows_` that can be read; false at the end.
+  // Steps to the next row of `rows_` that can be read; returns false at the end.
   [[nodiscard]] bool Step();
   [[nodiscard]] bool SkipDamage(const SQLite::Exception& damage);
   void Select(const std::string& columns, const std::set<std::int64_t>& topics);
@@ -38,11 +39,11 @@ class Db3File final : public BagFile {
 
   std::unique_ptr<SQLite::Database> db_;
   std::map<std::int64_t, Topic> topics_;  // by their ids
-  std::set<std::int64_t> wanted_;         // of them
+  std::set<std::int64_t> wanted_;         // ids of the wanted ones
   std::int64_t from_ns_ = 0;
   std::unique_ptr<SQLite::Statement> rows_;
   std::int64_t last_id_ = 0;
-  std::int64_t jump_ = 1;  // over rows that cannot be read
+  std::int64_t jump_ = 1;  // how many rows to skip when one cannot be read
   Bytes message_;
 };
 

@@ -9,7 +9,7 @@
 namespace trailcast::bag {
 namespace {
 
-// More in one piece is damage, or no writer that anybody has.
+// A larger piece is damage; no known writer makes one.
 constexpr std::uint64_t kMostChunkBytes = std::uint64_t{100} << 20U;
 constexpr std::uint64_t kMostSummaryBytes = std::uint64_t{100} << 20U;
 constexpr std::uint64_t kFooterBytes = 20;
@@ -19,7 +19,8 @@ std::chrono::nanoseconds Time(std::uint64_t ns) {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(std::min(ns, kMost)));
 }
 
-// The record at the beginning of `bytes`, which then begin after it; nothing: it is not whole.
+// Returns the record at the beginning of `bytes`, and removes it from them, or nothing if it is not
+// whole.
 struct Record {
   Opcode opcode{};
   std::span<const std::uint8_t> content;
@@ -33,9 +34,9 @@ std::optional<Record> TakeRecord(std::span<const std::uint8_t>& bytes) {
   return record;
 }
 
-// Counts the messages of all channels. False: some channel, its schema or its messages are not
-// described, and only the file itself says what it holds. Writers may leave out of a summary
-// whatever they like.
+// Counts the messages of all channels. Returns false if a channel, its schema or its messages are
+// not described, so that only reading the whole file tells its contents. Writers may leave anything
+// out of a summary.
 bool Explains(McapChannels& channels, const McapStatistics& statistics) {
   std::uint64_t messages = 0;
   for (const auto& count : statistics.counts) {
@@ -75,7 +76,8 @@ void McapFile::NoteDamageAt(const std::string& what) {
   NoteDamage(fmt::format("at byte {}: {}", record_, what));
 }
 
-// Where the file lists more of the topic than there was, and nothing that was damaged tells why.
+// Notes that messages are missing if the file lists more of the topic than it had and no damage
+// explains that.
 void McapFile::NoteLacking() {
   const std::uint64_t listed = channels_.Counted(topic_);
   if (damaged_ || from_ns_ != 0 || given_ >= listed) return;
@@ -83,7 +85,7 @@ void McapFile::NoteLacking() {
                          listed, topic_.name, given_));
 }
 
-// The list of contents at the file's end, where there is one that is whole.
+// Returns the list of contents at the file's end if it is whole.
 std::optional<Contents> McapFile::ReadSummary() {
   const std::uint64_t ending = kRecordHeadBytes + kFooterBytes + kMcapMagic.size();
   if (size_ < kMcapMagic.size() + ending) return std::nullopt;
@@ -102,7 +104,7 @@ std::optional<Contents> McapFile::ReadSummary() {
   if (begins < kMcapMagic.size() || begins >= footer_at || footer_at - begins > kMostSummaryBytes) {
     return std::nullopt;
   }
-  // The checksum, 0 where there is none, is of all until its own field.
+  // The checksum covers everything before its own field; 0 means that there is none.
   const std::uint64_t checked = size_ - kMcapMagic.size() - sizeof(crc) - begins;
   const auto summary = ReadAt(begins, checked);
   if (!summary || (crc != 0 && Crc32(*summary) != crc)) return std::nullopt;
@@ -154,7 +156,7 @@ bool McapFile::IsOfTopic(const McapMessage& message) const {
          message.log_time_ns >= from_ns_;
 }
 
-// By what the chunk's head says of the times of its messages.
+// The chunk's head tells the times of its messages.
 bool McapFile::EndsBefore(std::uint64_t chunk_at) {
   if (from_ns_ == 0) return false;
   const auto times = ReadAt(chunk_at, 2 * sizeof(std::uint64_t));
@@ -219,7 +221,7 @@ void McapFile::OpenChunk(std::span<const std::uint8_t> content, bool cut_off) {
   in_chunk_ = chunk_;
 }
 
-// Of the file's next record what it holds is left to NextInChunk. False at the end.
+// Reads the file's next record; NextInChunk then reads its messages. Returns false at the end.
 Result<bool> McapFile::ReadRecord() {
   if (ended_) return false;
   const auto head = ReadHead();

@@ -9,9 +9,10 @@
 
 namespace trailcast::bag {
 
-// An MCAP file of any writer: messages in chunks or by themselves, with a summary or, cut off,
-// without. A summary that does not describe all that it counts counts for nothing. A chunk whose
-// checksum or compression is wrong is left out; of one that is cut off, the beginning is read.
+// An MCAP file of any writer. Its messages may be in chunks or by themselves, and it may lack its
+// summary because it was cut off. A summary that does not describe all that it counts is ignored. A
+// chunk with a wrong checksum or compression is left out. If a chunk is cut off, its beginning is
+// read.
 class McapFile final : public BagFile {
  public:
   [[nodiscard]] static Result<std::unique_ptr<McapFile>> Open(const std::filesystem::path& file);
@@ -42,17 +43,17 @@ class McapFile final : public BagFile {
   std::ifstream stream_;
   std::filesystem::path file_;
   std::uint64_t size_;
-  std::uint64_t at_ = kMcapMagic.size();  // of the next record
-  std::uint64_t record_ = 0;              // of the one that is read
+  std::uint64_t at_ = kMcapMagic.size();  // where the next record begins
+  std::uint64_t record_ = 0;              // where the current record begins
   bool ended_ = false;
-  std::uint64_t unpacked_ = 0;  // bytes, since it began
-  std::uint64_t given_ = 0;     // messages, since it began
-  bool damaged_ = false;        // something that was read since it began
+  std::uint64_t unpacked_ = 0;  // bytes, since reading began
+  std::uint64_t given_ = 0;     // messages, since reading began
+  bool damaged_ = false;        // damage was found since reading began
   McapChannels channels_;
   Topic topic_;
   std::uint64_t from_ns_ = 0;
-  Bytes chunk_;                             // records: a chunk's, decompressed, or a single one
-  std::span<const std::uint8_t> in_chunk_;  // those left
+  Bytes chunk_;                             // records: a decompressed chunk's, or a single one
+  std::span<const std::uint8_t> in_chunk_;  // the part not read yet
 };
 
 }  // namespace trailcast::bag

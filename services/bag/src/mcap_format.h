@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-// MCAP, version 0: https://mcap.dev/spec. A file is the magic, records, the magic; a record is its
-// opcode (1 byte), its length (8) and its content. Numbers are little-endian.
+// MCAP, version 0: https://mcap.dev/spec. A file is the magic, records, and the magic again. A
+// record is its opcode (1 byte), its length (8) and its content. Numbers are little-endian.
 namespace trailcast::bag {
 
 inline constexpr std::array<std::uint8_t, 8> kMcapMagic{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
@@ -56,7 +56,7 @@ struct McapChunk {
   std::uint32_t uncompressed_crc = 0;  // 0: not given
   std::string compression;
   std::uint64_t compressed_bytes = 0;
-  std::span<const std::uint8_t> records;  // fewer than compressed_bytes: cut off
+  std::span<const std::uint8_t> records;  // fewer bytes than compressed_bytes if they are cut off
 };
 
 struct McapStatistics {
@@ -71,7 +71,7 @@ struct McapStatistics {
   std::vector<Count> counts;
 };
 
-// Nothing where the bytes are too few.
+// These return nothing if there are too few bytes.
 [[nodiscard]] std::optional<RecordHead> ParseRecordHead(std::span<const std::uint8_t> bytes);
 [[nodiscard]] std::optional<McapSchema> ParseSchema(std::span<const std::uint8_t> content);
 [[nodiscard]] std::optional<McapChannel> ParseChannel(std::span<const std::uint8_t> content);

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kUsualBytes = 128;
 constexpr std::size_t kFullChunkBytes = std::size_t{1} << 20U;
 
-// The content of a record, little-endian.
+// Builds the content of a record, little-endian.
 class Content {
  public:
   Content() { bytes_.reserve(kUsualBytes); }
@@ -32,7 +32,7 @@ class Content {
     bytes_.insert(bytes_.end(), text.begin(), text.end());
     return *this;
   }
-  // After four bytes that say how many.
+  // Puts the number of bytes, in four, before them.
   Content& PutCounted(std::span<const std::uint8_t> bytes) {
     return Put(static_cast<std::uint32_t>(bytes.size())).PutBytes(bytes);
   }
@@ -111,7 +111,7 @@ void McapWriter::Put(Id channel, std::chrono::nanoseconds at, std::span<const st
   if (chunk_.size() >= kFullChunkBytes) EndChunk();
 }
 
-// Where in the file the index of each channel's messages is.
+// Returns where in the file the index of each channel's messages is.
 std::map<McapWriter::Id, std::uint64_t> McapWriter::AppendIndexes() {
   std::map<Id, std::uint64_t> offsets;
   for (const auto& [channel, places] : places_) {
@@ -158,7 +158,7 @@ void McapWriter::EndChunk() {
 
 void McapWriter::End() {
   EndChunk();
-  Append(Content().Put(std::uint32_t{0}).As(Opcode::kDataEnd));  // 0: no checksum of it all
+  Append(Content().Put(std::uint32_t{0}).As(Opcode::kDataEnd));  // 0 stands for no checksum
   const std::uint64_t summary_at = offset_;
   Append(descriptions_);
   Content counts;
@@ -177,7 +177,7 @@ void McapWriter::End() {
              .PutCounted(counts.bytes())
              .As(Opcode::kStatistics));
   Append(chunk_indexes_);
-  // No table of what is where in the summary, no checksum.
+  // The footer has no table of the summary's groups and no checksum.
   Append(Content().Put(summary_at).Put(std::uint64_t{0}).Put(std::uint32_t{0}).As(Opcode::kFooter));
   Append({kMcapMagic.begin(), kMcapMagic.end()});
 }

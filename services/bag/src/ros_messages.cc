@@ -8,7 +8,7 @@
 namespace trailcast::bag {
 namespace {
 
-// builtin_interfaces/Time and the frame's name: std_msgs/Header.
+// A std_msgs/Header has builtin_interfaces/Time and the frame's name.
 SensorTime TakeHeader(CdrReader& cdr) {
   const auto seconds = static_cast<std::int32_t>(cdr.Take<std::uint32_t>());
   const auto nanoseconds = cdr.Take<std::uint32_t>();
@@ -45,7 +45,7 @@ Result<RosCompressedImage> ReadCompressedImage(std::span<const std::uint8_t> mes
   CdrReader cdr(message);
   RosCompressedImage image;
   image.stamp = TakeHeader(cdr);
-  (void)cdr.TakeText();  // the format, which the bytes say, too
+  (void)cdr.TakeText();  // the format, which the bytes tell as well
   image.bytes = cdr.TakeOctets();
   if (cdr.failed()) return Damaged(kCompressedImageType);
   return image;
@@ -73,7 +73,7 @@ Result<motion::VelocityCommand> ReadTwist(std::span<const std::uint8_t> message,
   if (stamped) (void)TakeHeader(cdr);
   motion::VelocityCommand command;
   command.linear_mps = cdr.TakeDouble();
-  // To the side, up, and about those axes.
+  // These are the speeds to the side and up, and the turn rates about x and y.
   for (int i = 0; i < 4; ++i) (void)cdr.TakeDouble();
   command.angular_radps = cdr.TakeDouble();
   if (cdr.failed() || !std::isfinite(command.linear_mps) || !std::isfinite(command.angular_radps)) {
