@@ -10,26 +10,27 @@
 
 namespace trailcast::http {
 
-// As hosts and types are compared.
+// Hosts and types are compared in lower case.
 [[nodiscard]] std::string Lower(std::string text);
 
-// Any page that a browser shows, from wherever it came, can have it send requests to a program that
-// listens on its machine, and under a name that somebody points at 127.0.0.1 (DNS rebinding) even
-// read the answers. The door lets in what was meant for this program and comes from its own page,
-// or from no page at all.
+// Decides which requests are let in: those meant for this program that come from its own page, or
+// from no page at all. Any page in a browser can send requests to a program on the same machine,
+// and under a name that points at 127.0.0.1 (DNS rebinding) it can even read the answers.
 struct Door {
-  int port = 0;                      // on which localhost, 127.0.0.1 and [::1] are this program
-  std::set<std::string> names = {};  // and other names of it, with any port, in lower case
-  bool any_name = false;             // where who comes has to say who they are
-  bool encrypted = false;            // its own pages come by https alone
-  std::string guarded = "/api/";     // paths below it are for its own pages only
+  int port = 0;                      // on this port, localhost, 127.0.0.1 and [::1] are this
+                                     // program
+  std::set<std::string> names = {};  // its other names, with any port, in lower case
+  bool any_name = false;             // allowed where clients have to authenticate
+  bool encrypted = false;            // its own pages come by https only
+  std::string guarded = "/api/";     // only its own pages may use paths below this
 };
 
-// Why it is not let in: 421 for another host's, 403 from another page.
+// Returns why a request is not let in: 421 if it is for another host, 403 if it is from another
+// page.
 [[nodiscard]] std::optional<Refusal> Judge(const httplib::Request& request, const Door& door);
 
-// 415 for a POST whose body is said to be neither JSON nor a file, which other pages could send
-// without being asked. What brings no body needs no type.
+// Returns 415 for a POST whose type is neither JSON nor a file, because other pages can send such a
+// body without asking. A request without a body needs no type.
 [[nodiscard]] std::optional<Refusal> JudgeType(const httplib::Request& request);
 
 }  // namespace trailcast::http

@@ -21,22 +21,23 @@ namespace trailcast::http {
 class Guests;
 class Stream;
 
-// Neither of a known length nor in chunks: then there is none (RFC 9112, section 6.3).
+// Says whether a request has no body: it has neither a length nor chunks (RFC 9112, section 6.3).
 [[nodiscard]] bool BringsNoBody(const httplib::Request& request);
 
 struct Limits {
   std::size_t threads = 2;
-  std::size_t waiting = 32;  // connections beyond those that a thread has
+  std::size_t waiting = 32;  // connections without a thread
   std::size_t body_bytes = 0;
-  std::size_t of_one_address = 0;  // connections of one address, or IPv6 network; 0: any number
+  std::size_t of_one_address = 0;  // connections of one address, or IPv6 network; 0 allows any
+                                   // number
 };
 
-// A request that may bring more, and take longer, than others.
+// A kind of request that may have more bytes, and take longer, than others.
 struct Allowance {
   std::string method{};
-  std::string path{};  // begins so
+  std::string path{};  // how it begins
   std::size_t body_bytes = 0;
-  std::chrono::milliseconds patience{};  // to read it, and for the client to take its answer;
+  std::chrono::milliseconds patience{};  // time to read it, and for the client to take its answer,
                                          // without a pause of ten seconds
 };
 
@@ -45,12 +46,13 @@ struct Refusal {
   std::string why{};  // for people
 };
 
-// cpp-httplib's server, on threads of its own, for clients that may be anybody: one request a
-// connection, bounded in bytes and time; who says nothing gives way to who does. What it serves is
-// told to it before it listens.
+// cpp-httplib's server on threads of its own, for clients that may be anybody. A connection has one
+// request, bounded in bytes and time, and silent clients give way to those that speak. All handlers
+// must be set before it listens.
 class Server final : public httplib::Server {
  public:
-  // It is told what was thrown on its threads; whoever asked was answered with 500 or hung up on.
+  // Called with each exception on the server's threads. Its client was answered with 500 or
+  // disconnected.
   using Complain = std::function<void(const Error&)>;
   using Judge = std::function<std::optional<Refusal>(const httplib::Request&)>;
   using Refuse = std::function<void(const Refusal&, httplib::Response&)>;
@@ -60,30 +62,30 @@ class Server final : public httplib::Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // Of each request, before its body is read; `refuse` writes the answer.
+  // Judges each request before its body is read; `refuse` writes the answer.
   void JudgeBy(Judge judge, Refuse refuse);
 
   void Allow(Allowance allowance);
 
-  // A POST that is obeyed whatever body it comes with. In the request that `handler` is given is
-  // the body if all of it came within kHurry and Limits::body_bytes, and none where it is too long,
-  // too late, cut off, or multipart.
+  // Handles a POST that is obeyed whatever its body is. `handler` gets a request with the body if
+  // all of it came within kHurry and Limits::body_bytes. A body that is too long, too late, cut off
+  // or multipart is left out.
   static constexpr std::chrono::milliseconds kHurry{500};
   void PostWithAnyBody(const std::string& pattern, Handler handler);
   [[nodiscard]] bool TakesAnyBody(const httplib::Request& request) const;
 
-  // From now on to TLS alone.
+  // Makes the server speak TLS only.
   void Speak(Tls tls) { tls_ = std::move(tls); }
 
-  // Port 0: any that is free. kUnavailable when it cannot be listened on.
+  // Listens on a port; 0 picks any free one. kUnavailable means that it cannot be listened on.
   [[nodiscard]] Result<void> Listen(const std::string& host, int port);
   [[nodiscard]] int port() const { return port_; }
 
  private:
-  // Accepts until it is over, whatever is thrown meanwhile.
+  // Accepts connections until the server stops, whatever is thrown meanwhile.
   void AcceptAll();
   void Accept();
-  [[nodiscard]] bool Failed(const Result<void>& done) const;  // and complains of it
+  [[nodiscard]] bool Failed(const Result<void>& done) const;  // reports an error, too
   void Answer(int socket, const std::function<void(bool)>& tell_awaited);
   void Answer(Stream& stream);
   [[nodiscard]] const Allowance* AllowanceOf(const httplib::Request& request) const;

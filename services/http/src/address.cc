@@ -11,7 +11,7 @@ namespace trailcast::http {
 std::string AddressKey(const std::string& address) {
   in6_addr six{};
   if (inet_pton(AF_INET6, address.c_str(), &six) != 1) return address;
-  // An IPv4 address in an IPv6 one.
+  // This is an IPv4 address in an IPv6 one.
   if (IN6_IS_ADDR_V4MAPPED(&six)) return address.substr(address.rfind(':') + 1);
   constexpr std::size_t kNetworkBytes = 8;
   std::fill(std::begin(six.s6_addr) + kNetworkBytes, std::end(six.s6_addr), std::uint8_t{0});

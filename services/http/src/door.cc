@@ -8,7 +8,7 @@
 namespace trailcast::http {
 namespace {
 
-// "name:port" without its port.
+// Returns "name" from "name:port".
 std::string NameOf(const std::string& host) {
   const std::size_t colon = host.rfind(':');
   const bool in_brackets = !host.empty() && host.back() == ']';
@@ -23,7 +23,8 @@ bool IsOurs(const std::string& host, const Door& door) {
   return door.any_name || door.names.contains(NameOf(host));
 }
 
-// Other pages cannot send these without asking first (the Fetch standard, 2.2.2, safelisted types).
+// Other pages cannot send these types without asking first (the Fetch standard, section 2.2.2,
+// safelisted types).
 bool IsOfOurs(const std::string& content_type) {
   std::string type = content_type.substr(0, content_type.find(';'));
   while (!type.empty() && type.back() == ' ') type.pop_back();

@@ -23,7 +23,7 @@ bool HasTakenAll(int socket) {
   return ioctl(socket, SIOCOUTQ, &bytes) != 0 || bytes == 0;
 }
 
-// When it is closed.
+// Makes closing discard what was not sent.
 void ForgetTheRest(int socket) {
   constexpr linger kAtOnce{.l_onoff = 1, .l_linger = 0};
   (void)setsockopt(socket, SOL_SOCKET, SO_LINGER, &kAtOnce, sizeof(kAtOnce));
@@ -31,7 +31,8 @@ void ForgetTheRest(int socket) {
 
 std::size_t ConnectionsOf(const Guests::Guest& guest) { return guest.address->second.all(); }
 
-// In being sent away: of the address that has more, or awaited for longer.
+// Orders guests for being sent away: first those whose address has more connections, then those
+// that were awaited for longer.
 bool IsBefore(const Guests::Guest& one, const Guests::Guest& other) {
   const std::size_t ones = ConnectionsOf(one);
   const std::size_t others = ConnectionsOf(other);
@@ -97,7 +98,7 @@ void Guests::MakeRoom() {
   SeeOff();
 }
 
-// Whether so many places are too few for all who are there, and those who come.
+// Says whether so many places are too few for the present and the arriving guests.
 bool Guests::Lacks(std::size_t places, std::size_t come) const {
   return waiting_.size() + answered_.size() + come > places + leaving_;
 }
@@ -125,7 +126,8 @@ void Guests::Work() {
   }
 }
 
-// One, for a newcomer whose address has so many; false: nobody may be.
+// Sends one guest away for a newcomer whose address has so many; returns false if nobody may be
+// sent away.
 bool Guests::SendAway(std::size_t newcomers) {
   Guest* most = nullptr;
   for (Guest& guest : answered_) {
@@ -138,7 +140,7 @@ bool Guests::SendAway(std::size_t newcomers) {
   return true;
 }
 
-// One, for a newcomer of its own address.
+// Sends one guest away for a newcomer of the same address.
 bool Guests::SendAwayOf(Addresses::const_iterator address) {
   const auto late = std::find_if(answered_.begin(), answered_.end(), [&](const Guest& guest) {
     return guest.address == address && guest.awaited_since && !guest.leaves && !InTime(guest);
@@ -154,7 +156,7 @@ void Guests::Dismiss(Guest& guest) {
   (void)shutdown(guest.socket, SHUT_RDWR);
 }
 
-// The same of those who have no thread yet.
+// Does the same among guests that have no thread yet.
 bool Guests::HangUpOnWaiting(std::size_t newcomers) {
   const auto most =
       std::max_element(waiting_.begin(), waiting_.end(), [](const Guest& one, const Guest& other) {
@@ -176,8 +178,8 @@ void Guests::Leave(std::list<Guest>& list, std::list<Guest>::iterator guest) {
   SeeOff();
 }
 
-// Who has taken everything; and without the rest who takes too long, and the eldest of who are too
-// many.
+// Closes connections that have taken everything, those that take too long, and the oldest ones if
+// there are too many.
 void Guests::SeeOff() {
   std::map<std::string, std::size_t> of;
   farewells_.remove_if([&](const Farewell& farewell) {

@@ -16,14 +16,14 @@
 
 namespace trailcast::http {
 
-// Connections, and the threads that answer them. A flood of clients that say nothing, say it slowly
-// or do not take their answers costs others next to nothing: while no thread is free, one is taken
-// from who is awaited, of the address that has most connections; and of those who wait for a thread
-// the one is next whose address has the fewest.
+// Holds connections and the threads that answer them. Clients that flood it and say nothing, speak
+// slowly or do not take their answers cost others almost nothing. If no thread is free, one is
+// taken from an awaited guest of the address with most connections. Among the guests that wait for
+// a thread, the address with the fewest is next.
 class Guests {
  public:
   struct Address {
-    std::size_t answered = 0;  // connections that a thread has
+    std::size_t answered = 0;  // connections with a thread
     std::size_t waiting = 0;
     [[nodiscard]] std::size_t all() const { return answered + waiting; }
   };
@@ -31,28 +31,29 @@ class Guests {
   struct Guest {
     int socket = -1;
     Addresses::iterator address{};
-    // Since when its thread waits for it: to say what it wants, or to take its answer.
+    // Since when the guest's thread waits for it, to send its request or to take its answer.
     std::optional<std::chrono::steady_clock::time_point> awaited_since{};
     bool leaves = false;  // it was sent away
   };
-  // Who is awaited for longer may be sent away although its address has no more than others.
+  // A guest that is awaited for longer may be sent away even if its address has no more connections
+  // than others.
   static constexpr std::chrono::milliseconds kPolite{1000};
-  // Who was answered may take what the kernel still has of it for so long.
+  // An answered guest has so long to take what the kernel still has for it.
   static constexpr std::chrono::milliseconds kFarewell{20'000};
 
-  // `answer`: with a guest, until it is answered.
+  // `answer` is called with each guest and returns once it is answered.
   Guests(const Limits& limits, std::function<void(Guest&)> answer);
   ~Guests();
   Guests(const Guests&) = delete;
   Guests& operator=(const Guests&) = delete;
 
-  // The socket is closed when its client has taken the answer, or there is no room for it: of as
-  // many as may be connected the kernel keeps answers, and no more. Waits until there is; but not
-  // where strangers come (Limits::of_one_address).
+  // Takes a connection. Its socket is closed once the client has taken the answer or there is no
+  // room for it: the kernel keeps answers for as many as may be connected, and no more. Take waits
+  // for room, except where strangers come (Limits::of_one_address).
   void Take(int socket, const std::string& address);
-  // From its thread: whether that waits for it now.
+  // Notes, from the guest's thread, whether that waits for it now.
   void Await(Guest& guest, bool awaited);
-  // To be called now and then.
+  // Closes what can be closed; the owner calls it now and then.
   void MakeRoom();
 
  private:
@@ -73,11 +74,11 @@ class Guests {
 
   const Limits limits_;
   const std::function<void(Guest&)> answer_;
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards everything below
   Addresses addresses_;
   std::list<Guest> waiting_;
   std::list<Guest> answered_;      // the oldest first
-  std::size_t leaving_ = 0;        // of them, sent away
+  std::size_t leaving_ = 0;        // how many of them were sent away
   std::list<Farewell> farewells_;  // the oldest first
   bool over_ = false;
   std::condition_variable comes_;

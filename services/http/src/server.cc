@@ -48,7 +48,7 @@ bool BringsNoBody(const httplib::Request& request) {
 Server::Server(const Limits& limits, Complain complain)
     : limits_(limits), complain_(std::move(complain)), refuse_(RefuseInText) {
   set_payload_max_length(limits_.body_bytes);
-  // Without SO_REUSEPORT, by which two servers would share a port and answer by turns.
+  // SO_REUSEPORT is left out, because two servers would share a port with it and answer by turns.
   set_socket_options([](socket_t socket) {
     const int yes = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
@@ -135,7 +135,7 @@ std::string Server::BodyOf(const httplib::Request& request,
 
 std::optional<Refusal> Server::JudgeBody(const httplib::Request& request) const {
   if (TakesAnyBody(request)) return std::nullopt;
-  // cpp-httplib reads such a body without a bound, and unpacks what is packed into any size.
+  // cpp-httplib reads such a body without a bound, and unpacks compressed ones to any size.
   if (request.has_header("Transfer-Encoding") || request.has_header("Content-Encoding")) {
     return Refusal{411,
                    "a body has to come with its length, and without Transfer-Encoding and "
@@ -164,7 +164,7 @@ Result<void> Server::Listen(const std::string& host, int port) {
                 "machine's?",
                 host, port);
   }
-  // cpp-httplib listens with room for five: others would come again a second later.
+  // cpp-httplib listens with room for five; more clients would retry a second later.
   (void)::listen(svr_sock_, kBacklog);
   (void)fcntl(svr_sock_, F_SETFL, fcntl(svr_sock_, F_GETFL) | O_NONBLOCK);
   guests_ = std::make_unique<Guests>(limits_, [this](Guests::Guest& guest) {
@@ -196,7 +196,7 @@ void Server::Accept() {
   }
 }
 
-// `tell_awaited`: whether the client is, as it changes.
+// `tell_awaited` is called when the server begins or ceases to wait for the client.
 void Server::Answer(int socket, const std::function<void(bool)>& tell_awaited) {
   if (!tls_) {
     Stream stream(socket, tell_awaited);
@@ -209,16 +209,17 @@ void Server::Answer(int socket, const std::function<void(bool)>& tell_awaited) {
 void Server::Answer(Stream& stream) {
   bool closed = false;
   (void)process_request(stream, /*close_connection=*/true, closed, [&](httplib::Request& request) {
-    // Nobody needs parts of an answer, and a request of 8 kB can name it whole a thousand times.
+    // Nobody needs parts of an answer, and a request of 8 kB can ask for the whole answer a
+    // thousand times.
     request.ranges.clear();
     const Allowance* allowance = AllowanceOf(request);
     const bool is_hurried = TakesAnyBody(request);
     const auto length = ParseNumber<std::uint64_t>(request.get_header_value("Content-Length"));
-    // A file may take its time, and what is obeyed without its body has none to lose.
+    // A file may take its time, and a request that is obeyed without its body loses nothing.
     stream.AwaitBody(is_hurried || allowance != nullptr ? 0 : length.value_or(0));
     if (is_hurried) return stream.Hurry(kHurry);
-    // Where no length is told, cpp-httplib reads until the client hangs up,
-    // which it does not while it waits for its answer.
+    // Without a length, cpp-httplib reads until the client hangs up, but the client waits for its
+    // answer.
     if (allowance == nullptr && BringsNoBody(request)) {
       request.headers.emplace("Content-Length", "0");
     }

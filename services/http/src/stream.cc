@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// What of these has come about within `most`.
+// Returns which of these events come about within `most`.
 short WaitFor(socket_t socket, short events, std::chrono::steady_clock::duration most) {
   const auto left = std::chrono::duration_cast<milliseconds>(most);
   pollfd waited{.fd = socket, .events = events, .revents = 0};
@@ -86,7 +86,7 @@ ssize_t Stream::Get(char* to, std::size_t size) {
 }
 
 ssize_t Stream::Put(const char* from, std::size_t size) {
-  // As much as there is room for, so that no send waits longer.
+  // It sends as much as there is room for, so that no send waits longer.
   return WaitToWrite(POLLOUT) ? send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT) : -1;
 }
 

@@ -34,7 +34,7 @@ Result<std::shared_ptr<SSL_CTX>> ContextOf(const std::filesystem::path& certific
   if (!context || SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION) != 1) {
     return Fail(ErrorCode::kInternal, "OpenSSL offers no TLS: {}", Why());
   }
-  // A connection has one request: nothing is to be kept for a next one, or agreed upon anew.
+  // A connection has one request, so nothing is kept for a next one or negotiated again.
   SSL_CTX_set_options(context.get(), SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_TICKET |
                                          SSL_OP_NO_COMPRESSION | SSL_OP_CIPHER_SERVER_PREFERENCE |
                                          SSL_OP_PRIORITIZE_CHACHA);
@@ -42,12 +42,12 @@ Result<std::shared_ptr<SSL_CTX>> ContextOf(const std::filesystem::path& certific
   SSL_CTX_set_session_cache_mode(context.get(), SSL_SESS_CACHE_OFF);
   SSL_CTX_set_mode(context.get(),
                    SSL_MODE_ENABLE_PARTIAL_WRITE | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
-  // Forward secrecy, and ciphers that vouch for what they carry.
+  // These have forward secrecy and authenticate what they encrypt.
   if (SSL_CTX_set_cipher_list(context.get(), "ECDHE+AESGCM:ECDHE+CHACHA20") != 1) {
     return Fail(ErrorCode::kInternal, "OpenSSL lacks ciphers: {}", Why());
   }
-  // Others, above all finite fields of 8192 bits, cost this side many times what they cost a client
-  // that only pretends to reckon with them (CVE-2002-20001).
+  // Other groups, above all finite fields of 8192 bits, cost this side many times what they cost a
+  // client that only pretends to compute (CVE-2002-20001).
   if (SSL_CTX_set1_groups_list(context.get(), "X25519:P-256:P-384") != 1) {
     return Fail(ErrorCode::kInternal, "OpenSSL lacks curves: {}", Why());
   }
@@ -61,7 +61,7 @@ Result<std::shared_ptr<SSL_CTX>> ContextOf(const std::filesystem::path& certific
   return context;
 }
 
-// Changes when one of the files does.
+// Returns a text that changes when one of the files does.
 std::string VersionOf(const std::filesystem::path& certificate, const std::filesystem::path& key) {
   std::string version;
   for (const std::filesystem::path& file : {certificate, key}) {
@@ -81,7 +81,7 @@ struct Tls::Files {
   std::filesystem::path certificate{};
   std::filesystem::path key{};
   std::chrono::milliseconds look_every{};
-  std::mutex mutex{};  // guards what follows
+  std::mutex mutex{};  // guards everything below
   std::shared_ptr<SSL_CTX> context{};
   std::string version{};
   Clock::time_point look_at{};
@@ -109,7 +109,7 @@ std::shared_ptr<ssl_ctx_st> Tls::Context() const {
   files_->look_at = now + files_->look_every;
   std::string version = VersionOf(files_->certificate, files_->key);
   if (version == files_->version) return files_->context;
-  // One may be there before the other is: then again the next time.
+  // One file may be renewed before the other; the next call then tries again.
   if (auto context = ContextOf(files_->certificate, files_->key)) {
     files_->context = *std::move(context);
     files_->version = std::move(version);

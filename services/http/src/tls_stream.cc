@@ -14,7 +14,7 @@ TlsStream::TlsStream(socket_t socket, SSL_CTX* context, TellAwaited tell)
 }
 
 TlsStream::~TlsStream() {
-  // Says that this was all, as far as that goes at once.
+  // This announces the end of the stream if that is possible without waiting.
   if (is_open_) (void)SSL_shutdown(ssl_.get());
   ERR_clear_error();
 }
@@ -43,7 +43,7 @@ ssize_t TlsStream::Get(char* to, std::size_t size) {
 }
 
 ssize_t TlsStream::Put(const char* from, std::size_t size) {
-  // OpenSSL takes so much of an answer at once.
+  // OpenSSL takes at most so much at once.
   constexpr std::size_t kMost = 1U << 30U;
   while (is_open_) {
     ERR_clear_error();
@@ -59,7 +59,7 @@ bool TlsStream::MayGoOn(int result, const WaitFor& wait_for) {
   const int error = SSL_get_error(ssl_.get(), result);
   if (error == SSL_ERROR_WANT_READ) return wait_for(POLLIN);
   if (error == SSL_ERROR_WANT_WRITE) return wait_for(POLLOUT);
-  // After such an error nothing may be said any more.
+  // OpenSSL forbids any further use after such an error.
   is_open_ = false;
   return false;
 }

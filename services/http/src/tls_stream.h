@@ -8,7 +8,7 @@
 
 namespace trailcast::http {
 
-// The same over TLS: all that the client has to say for that counts for its patience, too.
+// Does the same over TLS. The handshake counts for the client's patience, too.
 class TlsStream final : public Stream {
  public:
   TlsStream(socket_t socket, SSL_CTX* context, TellAwaited tell);
@@ -16,13 +16,13 @@ class TlsStream final : public Stream {
   TlsStream(const TlsStream&) = delete;
   TlsStream& operator=(const TlsStream&) = delete;
 
-  // False: the client speaks no TLS, or not in time.
+  // Returns false if the client does not speak TLS, or not in time.
   [[nodiscard]] bool Greet();
 
  private:
   ssize_t Get(char* to, std::size_t size) override;
   ssize_t Put(const char* from, std::size_t size) override;
-  // After `result`: whether what OpenSSL waits for came about.
+  // Says, after `result`, whether what OpenSSL waits for came about.
   template <typename WaitFor>
   [[nodiscard]] bool MayGoOn(int result, const WaitFor& wait_for);
 
