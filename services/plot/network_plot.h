@@ -8,8 +8,8 @@
 
 namespace trailcast::plot {
 
-// Routes as lines of a railway map: metres along them to scale, how they bend not at all. Places
-// are given by a route's position in `routes` and metres along it.
+// Routes as lines of a railway map: metres along them are to scale, but bends do not show. A place
+// is a route's position in `routes` and metres along it.
 struct NetworkPicture {
   struct Place {
     std::size_t route = 0;
@@ -30,7 +30,7 @@ struct NetworkPicture {
     Place from{};
     Place to{};
     bool both = false;
-    bool used = true;  // drawn dashed where not, or not yet
+    bool used = true;  // drawn dashed if it is not used, or not yet
   };
   struct Name {
     std::string name{};
@@ -42,11 +42,11 @@ struct NetworkPicture {
   std::vector<Name> names{};
 };
 
-// A route a row, moved along so that the first joint to a row above it stands upright; a joint of a
-// route with itself is a bow below it. At least one route.
+// Draws a row for each route, shifted so that the first junction with a row above it is a vertical
+// line. A junction of a route with itself is a bow below it. There must be at least one route.
 [[nodiscard]] Drawing DrawNetwork(const NetworkPicture& network);
 
-// Where each row begins, metres from the picture's left; the smallest is 0.
+// Returns where each row begins, in metres from the picture's left; the smallest is 0.
 [[nodiscard]] std::vector<double> RowStarts(const NetworkPicture& network);
 
 }  // namespace trailcast::plot

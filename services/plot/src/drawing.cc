@@ -44,7 +44,7 @@ cairo_text_extents_t ExtentsOf(const std::string& text, double size) {
   return extents;
 }
 
-// Of the font whose capitals are that high.
+// Returns the size of the font whose capitals are that high.
 double SizeOf(double height_px) {
   static const double capital = ExtentsOf("H", kTrialSize).height / kTrialSize;
   return capital > 0.0 ? height_px / capital : height_px;
@@ -166,7 +166,7 @@ void Drawing::Paste(const image::RgbImage& picture, double x, double y, double w
   });
 }
 
-// On a page of any kind.
+// Draws on a page of any kind.
 void Drawing::Draw(cairo_surface_t* page) const {
   const ContextPtr context(cairo_create(page));
   for (const Stroke& stroke : strokes_) stroke(context.get());

@@ -99,14 +99,14 @@ class Map {
     Write(drawing, LabelOf(number), {begin.x + 6.0, begin.y - 12.0});
   }
 
-  // To either side of what is narrow.
+  // Draws walls on either side of a mutex zone.
   static void DrawWalls(Drawing& drawing, PixelPoint from, PixelPoint to) {
     for (const double side : {-kWall_px, kWall_px}) {
       drawing.Line({{from.x, from.y + side}, {to.x, to.y + side}}, kInk, 2.0);
     }
   }
 
-  // Below where robots may drive backwards, too, and its walls, an arrow that way.
+  // Draws an arrow backwards, below the line and its walls, where robots may reverse as well.
   static void DrawBacked(Drawing& drawing, PixelPoint from, PixelPoint to) {
     const PixelPoint begin{to.x, to.y + kBackwards_px};
     const PixelPoint end{from.x, from.y + kBackwards_px};
@@ -114,7 +114,7 @@ class Map {
     DrawHead(drawing, begin, end, kBlue);
   }
 
-  // Across where robots lose their path.
+  // Draws ticks across the line where robots lose their path.
   static void DrawTicks(Drawing& drawing, PixelPoint from, PixelPoint to) {
     for (double x = from.x; x <= to.x; x += kTicks_px) {
       drawing.Line({{x, from.y - kTick_px}, {x, from.y + kTick_px}}, kOrange, 2.0);
@@ -143,7 +143,7 @@ class Map {
         color);
   }
 
-  // Over whatever line passes there.
+  // Writes over any line that passes there.
   static void Write(Drawing& drawing, const std::string& text, PixelPoint at) {
     const double wide_px = Drawing::TextWidth(text, kNetworkTextHeight_px);
     drawing.FillBox({at.x - 2.0, at.y - kNetworkTextHeight_px - 2.0},

@@ -26,7 +26,7 @@ constexpr double kTop_px = 45.0;
 constexpr double kBottom_px = 60.0;
 constexpr double kLegendSample_px = 36.0;
 
-// Where the world's plane lies in the picture.
+// The place of the world's plane in the picture.
 struct Frame {
   PlanArea area;
   double px_per_m = 1.0;
@@ -77,7 +77,7 @@ double WidthOf(const PlottedPath& path) {
   return path.taught ? 4.0 : 2.0;
 }
 
-// Below a pixel's distance there is nothing to see, and dashes would melt together.
+// Points closer than a pixel cannot be seen, and would make dashes run into each other.
 std::vector<PixelPoint> PixelsOf(const Frame& frame, const PlottedPath& path) {
   std::vector<PixelPoint> points;
   points.reserve(path.points_m.size());
@@ -125,9 +125,9 @@ Frame FrameOf(const Plan& plan) {
   return frame;
 }
 
-// A disc that stands until `from`, is at the path's end at `to`, and stands there until all begins
-// anew; both are shares of `period_s`. Points are in pixels' middles, SVG counts from their
-// corners.
+// Draws a disc that stands until `from`, drives until `to`, and stands at the path's end until the
+// animation begins anew; both are shares of `period_s`. SVG counts from pixels' corners, points
+// from their middles.
 std::string MovingDisc(const Frame& frame, const PlottedPath& path, double from, double to,
                        double period_s) {
   std::string way;

@@ -15,7 +15,7 @@ using image::PixelPoint;
 constexpr Color kBorder{170, 170, 170};
 constexpr double kStripTextHeight_px = 10.0;
 constexpr double kStripTitleHeight_px = 11.0;
-// A robot that stands takes no room on an axis of metres: its band is to be seen all the same.
+// A robot that stands takes no room on an axis of metres, but its band must be visible.
 constexpr double kNarrowestBand_px = 4.0;
 
 struct Range {
@@ -40,7 +40,7 @@ Range YRange(const StripChart& chart) {
       range.to = std::max(range.to, value.value_or(range.to));
     }
   }
-  // A curve on the frame's own line cannot be seen.
+  // A curve on the frame's own line could not be seen.
   const double room = 0.05 * (range.to - range.from);
   if (range.from < chart.least_y) range.from -= room;
   if (range.to > chart.largest_y) range.to += room;
