@@ -5,8 +5,8 @@
 
 namespace trailcast::catalog {
 
-// Answers one request from what is stored. Never fails: what went wrong is in the reply's `error`.
-// An exact name matches nothing: the reply carries the names that exist, nearest first, at most 10.
+// Answers one request from the store. It never fails; the reply's `error` tells what went wrong. If
+// nothing has the exact name, the reply has up to 10 existing names, the nearest first.
 [[nodiscard]] exchange::CatalogReply Answer(const exchange::CatalogRequest& request,
                                             const AgentId& server, store::RouteStore& store);
 

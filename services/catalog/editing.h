@@ -8,8 +8,9 @@
 
 namespace trailcast::catalog {
 
-// The revisions that an edit changes, as they are afterwards, each an edition later; none if all is
-// so already. Writes nothing. kInvalidArgument, kNotFound or kConflict, saying what to do instead.
+// Returns the revisions that an edit changes, as they are afterwards, each with the next edition
+// number. The result is empty if nothing is to change. It writes nothing. kInvalidArgument,
+// kNotFound and kConflict say what to do instead.
 [[nodiscard]] Result<std::vector<route::RouteInfo>> PlanEdit(const route::RouteEdit& edit,
                                                              store::RouteStore& store);
 

@@ -13,25 +13,25 @@
 
 namespace trailcast::catalog {
 
-// Complete routes that a server has in part only: some of their segments are not in the store, or
-// are damaged there. Walks through the store again and again, some routes at a time, and is told of
-// what is found damaged or stored meanwhile. Not thread-safe.
+// Finds complete routes that a server has only in part, because segments are missing from its store
+// or damaged there. It walks through the store again and again, some routes at a time, and is told
+// which segments are found damaged or stored meanwhile. It is not thread-safe.
 class PartialRoutes {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  // `store` outlives it.
+  // `store` must outlive it.
   explicit PartialRoutes(store::RouteStore& store) : store_(store) {}
 
-  // Looks at some routes more; those of them that are there in part.
+  // Looks at some more routes and returns those that are there in part.
   [[nodiscard]] Result<std::vector<route::RouteKey>> Look();
   void NoteDamaged(const route::RouteKey& key, SegmentIndex segment);
   void NoteStored(const route::RouteKey& key, SegmentIndex segment);
-  // Of which nobody was told yet, or not for an hour.
+  // Returns the routes that were not reported yet, or not for an hour.
   [[nodiscard]] std::vector<store::LackingRoute> TakeUntold(Time now);
 
   [[nodiscard]] std::size_t routes() const { return partial_.size(); }
-  [[nodiscard]] std::size_t segments() const;  // that these lack
+  [[nodiscard]] std::size_t segments() const;  // how many segments these lack
   [[nodiscard]] std::size_t LackingOf(const route::RouteKey& key) const;
 
  private:
@@ -42,7 +42,7 @@ class PartialRoutes {
     std::optional<Time> told;
     int seen_in_round = 0;
   };
-  // True if it is there in part.
+  // Returns true if the route is there in part.
   [[nodiscard]] Result<bool> LookAt(const route::RouteInfo& info);
   void ForgetUnseen();
 

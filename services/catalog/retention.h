@@ -13,30 +13,35 @@
 
 namespace trailcast::catalog {
 
-// Which revisions a server keeps without being told. The active one of a route always is.
+// Which revisions a server keeps on its own. It always keeps a route's active one.
 struct RetentionPolicy {
-  std::uint32_t keep_revisions = 0;  // of the others of a route the newest complete ones; 0: all
-  // Others go when nothing of them was stored for so long, by the time that the server has seen
-  // pass; 0: never.
+  std::uint32_t keep_revisions = 0;  // of a route's other complete revisions, the newest; 0 keeps
+                                     // all
+  // Other revisions are deleted if nothing of them was stored for so long, by the time that the
+  // server has seen pass; 0 keeps them for ever.
   std::chrono::hours keep_for{0};
-  // Of all routes together at most so many go in a day; what is more waits for the next ones.
+  // At most so many are deleted in a day, of all routes together; the others wait for the next
+  // days.
   std::uint32_t most_a_day = 100;
   [[nodiscard]] bool any() const { return keep_revisions > 0 || keep_for.count() > 0; }
 };
 
-// Walks through the stored routes again and again, some at a time, and says what is to go. No
-// clock counts, which somebody may have set, and what is being taught is not old. Not thread-safe.
+// Decides which revisions are to be deleted. It walks through the stored routes again and again,
+// some at a time. It uses no clock, because somebody may have set that, and a route that is being
+// taught is not old. It is not thread-safe.
 class Retention {
  public:
-  // `store` outlives it.
+  // `store` must outlive it.
   Retention(store::RouteStore& store, const RetentionPolicy& policy)
       : store_(store), policy_(policy) {}
 
-  // For how long each of these lies in the store as it is: with the same `grown_unix_ms`.
+  // Returns for how long each of these has been in the store unchanged, with the same
+  // `grown_unix_ms`.
   using Grown = std::pair<route::RouteKey, std::int64_t>;
   using AgesOf =
       std::function<Result<std::vector<std::chrono::milliseconds>>(const std::vector<Grown>&)>;
-  // Looks at some routes more: their revisions that are to go, as tombstones. Writes nothing.
+  // Looks at some more routes and returns their revisions that are to be deleted, as tombstones. It
+  // writes nothing.
   [[nodiscard]] Result<std::vector<route::RouteInfo>> Next(const AgesOf& ages_of);
 
  private:

@@ -9,19 +9,19 @@
 
 namespace trailcast::catalog {
 
-// Segments that nobody can ever ask for: of teachings of which nothing else is known, because they
-// were never announced, or of deleted ones. Walks through the store again and again, some teachings
-// at a time. What is being taught is announced, and grows. Not thread-safe.
+// Finds orphans: segments for which nobody can ever ask, because their teaching was never announced
+// or was deleted. It walks through the store again and again, some teachings at a time. A route
+// that is being taught is announced and grows, so it is none. It is not thread-safe.
 class Strays {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::hours kKept{24};
 
-  // `store` outlives it.
+  // `store` must outlive it.
   explicit Strays(store::RouteStore& store) : store_(store) {}
 
-  // Looks at some teachings more: those that were seen to be strays, and to have as many segments,
-  // for so long.
+  // Looks at some more teachings and returns those that were orphans with the same number of
+  // segments for so long.
   [[nodiscard]] Result<std::vector<store::HeldTeaching>> Next(Time now);
 
  private:
@@ -34,7 +34,7 @@ class Strays {
 
   store::RouteStore& store_;
   std::map<route::RouteKey, Seen> seen_;
-  route::RouteKey last_ = BeforeAll();  // looked at
+  route::RouteKey last_ = BeforeAll();  // the last one looked at
 };
 
 }  // namespace trailcast::catalog

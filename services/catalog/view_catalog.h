@@ -16,37 +16,36 @@
 
 namespace trailcast::catalog {
 
-// "Which routes, and where on them, show what I see now?" Keeps an index of the stored segments in
-// memory, filled bit by bit, the newest routes first, and what is taught meanwhile before them; a
-// reply says how much of the stock it covers. Not thread-safe.
+// Answers which routes, and which places on them, show what a camera sees now. It keeps an index of
+// the stored segments in memory and fills it bit by bit, the newest routes first, and newly taught
+// ones before them. A reply tells how much of the store it covers. It is not thread-safe.
 class ViewCatalog {
  public:
-  // `store` outlives the catalog.
+  // `store` must outlive the catalog.
   explicit ViewCatalog(store::RouteStore& store, const view::ViewIndexOptions& options = {});
 
-  // Indexes up to `most` segments more, or looks at so many routes. An error is the store's; what
-  // could not be read is left out and told once, or left for later when the store is kUnavailable.
+  // Indexes up to `most` more segments, or looks at so many routes. An error is the store's. What
+  // cannot be read is left out and reported once, or left for later if the store is kUnavailable.
   [[nodiscard]] Result<void> Fill(std::size_t most);
-  // Nothing to do at present: all is indexed, or the index is full.
+  // Returns true if there is nothing to do at present: everything is indexed, or the index is full.
   [[nodiscard]] bool Filled() const;
 
-  // More of this route has been stored, nobody knows which segments.
+  // Notes that more of this route was stored, without telling which segments.
   void Note(const route::RouteKey& key);
-  // Indexes a segment that has been stored, or repaired. kCorrupt if it is left out because its
-  // bytes mean nothing.
+  // Indexes a segment that was stored or repaired. kCorrupt means that it is left out because its
+  // bytes cannot be decoded.
   [[nodiscard]] Result<void> Add(const route::SegmentPiece& piece);
-  // Segments that could not be read, for their damage, since the last call: in filling, or for an
-  // answer.
+  // Returns the segments whose damage was found since the last call, by filling or by answering.
   [[nodiscard]] std::vector<view::ViewIndex::Place> TakeDamaged();
-  // The route is there no more.
+  // Drops a route that has left the store.
   void Forget(const route::RouteKey& key);
 
-  // Answers a request that has a view. Never fails: what went wrong is in the reply's `error`.
+  // Answers a request that has a view. It never fails; the reply's `error` tells what went wrong.
   [[nodiscard]] exchange::CatalogReply Answer(const exchange::CatalogRequest& request,
                                               const AgentId& server);
 
   [[nodiscard]] const view::ViewIndex& index() const { return index_; }
-  [[nodiscard]] view::ViewIndex& index() { return index_; }  // to be asked
+  [[nodiscard]] view::ViewIndex& index() { return index_; }  // for queries
 
  private:
   using Place = view::ViewIndex::Place;
@@ -70,13 +69,13 @@ class ViewCatalog {
 
   store::RouteStore& store_;
   view::ViewIndex index_;
-  std::string cursor_;                // of the walk through the store
-  bool walked_ = false;               // to its end
-  std::deque<route::RouteKey> page_;  // of the walk: to be looked at
-  std::set<route::RouteKey> noted_;   // to be looked at before
-  std::deque<Place> segments_;        // of the routes looked at: to be indexed
+  std::string cursor_;                // how far the walk through the store is
+  bool walked_ = false;               // the walk has reached the end
+  std::deque<route::RouteKey> page_;  // the walk's next routes to look at
+  std::set<route::RouteKey> noted_;   // routes to look at before those
+  std::deque<Place> segments_;        // segments to index, of routes looked at
   std::set<Place> unreadable_;
-  std::vector<Place> damaged_;  // that nobody was told of yet
+  std::vector<Place> damaged_;  // not reported yet
 };
 
 }  // namespace trailcast::catalog

@@ -7,7 +7,7 @@ namespace trailcast::catalog {
 namespace {
 
 constexpr std::size_t kMaxSimilarNames = 10;
-// Names compared to a mistyped one: so many on either side in the alphabet.
+// A mistyped name is compared with so many names on either side of it in the alphabet.
 constexpr std::size_t kNamesCompared = 500;
 
 Result<std::vector<std::string>> SimilarNames(const std::string& wanted, store::RouteStore& store) {
@@ -28,7 +28,8 @@ Result<void> Fill(exchange::CatalogReply& reply, const route::RouteQuery& query,
   if (query.name.empty() || reply.page.total > 0) return {};
   Result<std::vector<std::string>> similar = SimilarNames(query.name, store);
   if (!similar) return tl::unexpected(similar.error());
-  // A name that is in use, on routes that something else in the query excludes, is no suggestion.
+  // The name itself is no suggestion: it is in use, but on routes that something else in the query
+  // excludes.
   std::erase(*similar, query.name);
   reply.similar_names = std::move(*similar);
   return {};

@@ -25,7 +25,7 @@ std::set<std::string> IdsOf(const Revisions& revisions) {
   return ids;
 }
 
-// All revisions of the one route that is meant, rising.
+// Returns all revisions of the route that is meant, rising.
 Result<Revisions> FindMeant(const std::string& name_or_id, store::RouteStore& store) {
   const auto meant = store.FindMeant(name_or_id);
   if (!meant) return tl::unexpected(meant.error());
@@ -43,7 +43,7 @@ Result<Revisions> FindMeant(const std::string& name_or_id, store::RouteStore& st
   return exchange::Ambiguous(name_or_id, rivals);
 }
 
-// What the edit is about: one revision, or all.
+// Returns the revisions that the edit addresses: one, or all.
 Result<std::vector<RouteInfo*>> Addressed(const RouteEdit& edit, Revisions& revisions) {
   std::vector<RouteInfo*> addressed;
   std::vector<std::uint32_t> there;
@@ -60,8 +60,8 @@ Result<std::vector<RouteInfo*>> Addressed(const RouteEdit& edit, Revisions& revi
 
 bool IsActive(const RouteInfo& info) { return info.standing == Standing::kActive; }
 
-// The newest below `end` that can be followed to its end, if any; retired ones, and those that are
-// held back, only by number.
+// Returns the newest revision below `end` that can be followed to its end. Retired revisions and
+// those that are held back are chosen only by number.
 RouteInfo* NewestComplete(Revisions& revisions, std::uint32_t end) {
   RouteInfo* newest = nullptr;
   for (RouteInfo& info : revisions) {
@@ -79,8 +79,8 @@ void MakeActive(RouteInfo& chosen, Revisions& revisions) {
   }
   chosen.standing = Standing::kActive;
   chosen.to_review = false;
-  // Later than all that is known of the others: where servers that did not hear of each other have
-  // each activated one, that counts which was activated last (exchange::Disagreements).
+  // The edition exceeds all that is known. If servers without contact have each activated a
+  // revision, the one that was activated last counts (exchange::Disagreements).
   for (const RouteInfo& info : revisions) chosen.edition = std::max(chosen.edition, info.edition);
 }
 

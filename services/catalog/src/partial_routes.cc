@@ -34,7 +34,7 @@ Result<bool> PartialRoutes::LookAt(const route::RouteInfo& info) {
   partial.info = info;
   partial.missing = {missing->begin(), missing->end()};
   partial.seen_in_round = round_;
-  // Another server that shares the store may have mended it.
+  // Another server that shares the store may have repaired it.
   std::erase_if(partial.damaged, [&](SegmentIndex segment) {
     return store_.ReadSegment(info.key, segment).has_value();
   });
@@ -43,7 +43,7 @@ Result<bool> PartialRoutes::LookAt(const route::RouteInfo& info) {
   return false;
 }
 
-// Of routes that are there no more.
+// These routes have left the store.
 void PartialRoutes::ForgetUnseen() {
   std::erase_if(partial_, [&](const auto& each) { return each.second.seen_in_round < round_; });
   ++round_;

@@ -48,7 +48,7 @@ Result<std::vector<RouteInfo>> Retention::Next(const AgesOf& ages_of) {
 std::vector<RouteInfo> Retention::Outdated(const std::vector<RouteInfo>& revisions,
                                            const Ages& ages) const {
   std::vector<RouteInfo> outdated;
-  std::uint32_t newer = 0;  // complete ones
+  std::uint32_t newer = 0;  // counts complete ones
   for (auto info = revisions.rbegin(); info != revisions.rend(); ++info) {
     if (info->standing == route::Standing::kActive) continue;
     const bool complete = info->state == route::RouteState::kComplete;

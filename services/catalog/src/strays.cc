@@ -24,7 +24,7 @@ Result<std::vector<store::HeldTeaching>> Strays::Next(Time now) {
       seen.insert(seen_.extract(teaching.key));
     }
   }
-  // Those that lay between and are strays no more.
+  // The teachings in between are orphans no more.
   std::erase_if(seen_, [&](const auto& each) {
     return each.first > first && (at_end || each.first <= last_);
   });

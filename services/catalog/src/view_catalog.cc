@@ -10,14 +10,14 @@ namespace trailcast::catalog {
 namespace {
 
 constexpr std::uint32_t kViewsPage = store::RouteStore::kMaxPage;
-// Candidates that are read and compared feature by feature for one view: those on either side of
-// the right one come soon after it; a doubtful one may come late.
+// How many candidates are read and compared feature by feature for one view. The neighbours of the
+// right one follow it soon, but an uncertain one may come late.
 constexpr std::size_t kViewsCompared = 100;
 constexpr std::size_t kComparedOnceSure = 30;
 constexpr double kSure = 0.5;
-constexpr std::size_t kComparedAround = 8;  // of the best one's route, to either side
+constexpr std::size_t kComparedAround = 8;  // on either side of the best one, along its route
 
-// Bytes that are whole and mean nothing are as their scout sent them.
+// Bytes that are whole but cannot be decoded are as their scout sent them, so they are no damage.
 Result<route::Segment> Decoded(const route::SegmentPiece& piece) {
   auto segment = route::Decode(piece.bytes);
   if (segment) segment->index = piece.index;
@@ -63,7 +63,7 @@ Result<void> ViewCatalog::FillOne() {
 Result<void> ViewCatalog::ReadPage() {
   const auto page = store_.QueryRoutes({.page_size = kViewsPage, .cursor = cursor_});
   if (!page) {
-    // Nobody could say where to go on.
+    // Without the page nobody knows where to continue.
     walked_ = page.error().code != ErrorCode::kUnavailable;
     return tl::unexpected(page.error());
   }
@@ -109,7 +109,7 @@ Result<void> ViewCatalog::Index(const Place& place, const Result<route::Segment>
     }
     return tl::unexpected(segment.error());
   }
-  std::ignore = index_.Add(place.key, *segment);  // not full, or nothing would be read
+  std::ignore = index_.Add(place.key, *segment);  // the index is not full, or nothing would be read
   return {};
 }
 
@@ -123,7 +123,8 @@ Result<route::Segment> ViewCatalog::Read(const Place& place) {
 }
 
 void ViewCatalog::Note(const route::RouteKey& key) {
-  // Strangers can make up routes; what is beyond is found by the walk after the next start.
+  // Strangers can make up routes, so the number is bounded. The walk after the next start finds the
+  // rest.
   constexpr std::size_t kMostNoted = 65'536;
   if (!index_.full() && noted_.size() < kMostNoted) noted_.insert(key);
 }
@@ -172,7 +173,8 @@ Result<std::vector<route::FoundPlace>> ViewCatalog::FindBy(const std::vector<Pla
   return found;
 }
 
-// The index sees what looks alike, not which of a few places in a row looks most so.
+// The index finds similar views, but cannot tell which of a few neighbouring places is the most
+// similar.
 Result<void> ViewCatalog::LookAround(std::vector<route::FoundPlace>& found,
                                      const Matcher& matcher) {
   if (found.empty()) return {};
@@ -191,7 +193,7 @@ Result<void> ViewCatalog::LookAround(std::vector<route::FoundPlace>& found,
 }
 
 Result<std::vector<route::FoundPlace>> ViewCatalog::Find(const route::View& seen) {
-  // Those of unknown size come first.
+  // Features of unknown size come first.
   const auto sized = std::find_if(seen.begin(), seen.end(),
                                   [](const auto& feature) { return feature.size_px > 0.0F; });
   const std::span<const route::ViewFeature> as_scout(seen.begin(), sized);
@@ -221,7 +223,7 @@ Result<void> ViewCatalog::FillReply(exchange::CatalogReply& reply, const route::
     if (reply.places.size() == most) break;
     auto info = store_.FindRoute(place.key);
     if (!info) return tl::unexpected(info.error());
-    if (!*info) continue;  // segments came before their route
+    if (!*info) continue;  // its segments arrived before the route's description
     reply.places.push_back(std::move(place));
     reply.page.routes.push_back(std::move(**info));
   }
