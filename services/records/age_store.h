@@ -12,14 +12,14 @@
 
 namespace trailcast::store {
 
-// For how long revisions lie in a store as they are, by the time that its server has itself seen
-// pass: no clock that is set makes one old, and none grows older while the server does not run. A
-// SQLite file of its own, created if missing; in memory alone for ":memory:". Errors name the file:
-// kUnavailable (disk full, no such folder), kConflict (another process has it open), kCorrupt (no
-// such file of ours, or a damaged one).
+// Keeps for how long revisions have been in a store unchanged, by the time that the server itself
+// has seen pass. Setting a clock makes none old, and none ages while the server does not run. It
+// uses a SQLite file of its own, created if missing; ":memory:" keeps it in memory. Errors name the
+// file: kUnavailable (disk full, no such folder), kConflict (another process has it open), kCorrupt
+// (not our file, or a damaged one).
 class AgeStore {
  public:
-  // What of `Pass` a server that is killed forgets, at most.
+  // A server that is killed forgets at most so much of what `Pass` told it.
   static constexpr std::chrono::milliseconds kKeptEvery{60'000};
 
   [[nodiscard]] static Result<std::unique_ptr<AgeStore>> Open(const std::filesystem::path& file);
@@ -27,17 +27,17 @@ class AgeStore {
   AgeStore(const AgeStore&) = delete;
   AgeStore& operator=(const AgeStore&) = delete;
 
-  // So much time has passed since this was called last.
+  // Adds the time that has passed since the last call.
   [[nodiscard]] Result<void> Pass(std::chrono::milliseconds time);
 
-  // Of each its age, which begins when it is seen here first, and anew with each other mark that
-  // its store has put upon it as it grew.
+  // Returns the age of each revision. It begins when the revision is first seen here, and anew
+  // whenever its store has marked it differently because it grew.
   using Marked = std::pair<route::RouteKey, std::int64_t>;
   [[nodiscard]] Result<std::vector<std::chrono::milliseconds>> AgesOf(
       const std::vector<Marked>& revisions);
 
-  // How many of `wanted` deletions there may be without anybody asking, for those to be at most
-  // `most` in a day. What is returned is counted, on the disk.
+  // Returns how many of `wanted` deletions may happen on the server's own account without exceeding
+  // `most` in a day. The returned number is counted, on the disk.
   [[nodiscard]] Result<std::uint32_t> Allow(std::uint32_t wanted, std::uint32_t most);
 
  private:

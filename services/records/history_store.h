@@ -14,13 +14,12 @@
 
 namespace trailcast::store {
 
-// What was changed of routes and of how they are joined: a SQLite file of its own, created if
-// missing. What a call has stored is on the disk when it returns. Errors name the file:
-// kUnavailable (disk full, no such folder), kConflict (another process has it open), kCorrupt (no
-// such file of ours, or a damaged one).
+// Keeps the changes of routes and of the network in a SQLite file of its own, created if missing. A
+// call's data is on the disk when it returns. Errors name the file: kUnavailable (disk full, no
+// such folder), kConflict (another process has it open), kCorrupt (not our file, or a damaged one).
 class HistoryStore {
  public:
-  // The oldest changes go once there are more than `most_kept`, or one in a hundred more.
+  // The oldest changes are deleted once there are one per cent more than `most_kept`.
   static constexpr std::int64_t kMostKept = 100'000;
   [[nodiscard]] static Result<std::unique_ptr<HistoryStore>> Open(
       const std::filesystem::path& file, std::int64_t most_kept = kMostKept);
@@ -28,16 +27,18 @@ class HistoryStore {
   HistoryStore(const HistoryStore&) = delete;
   HistoryStore& operator=(const HistoryStore&) = delete;
 
-  // From when on all changes are there: `now_unix_ms` of a new file, later where the oldest went.
+  // Returns since when all changes are kept: `now_unix_ms` for a new file, later if the oldest were
+  // deleted.
   [[nodiscard]] Result<std::int64_t> KeptSince(std::int64_t now_unix_ms);
 
-  // A revision as it was when it was last noted; nothing if it never was.
+  // Returns a revision as it was last noted, if it was.
   [[nodiscard]] Result<std::optional<route::RouteInfo>> Noted(const route::RouteKey& key);
-  // All or nothing. Deleted revisions are noted no more.
+  // Notes all or nothing. Deleted revisions are dropped.
   [[nodiscard]] Result<void> Note(std::span<const network::Change> changes,
                                   std::span<const route::RouteInfo> revisions);
 
-  // Of then or later, the oldest first: the first `most` after so many.
+  // Returns changes at that time or later, the oldest first: it skips `skip` of them and returns at
+  // most `most`.
   [[nodiscard]] Result<std::vector<network::Change>> Since(std::int64_t unix_ms, std::int64_t skip,
                                                            std::int64_t most);
 

@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kDay = std::chrono::hours(24);
 
 // `passed_ms` is the time that has passed so far, and `day` the last of its days on which something
-// was deleted. A revision is as it is since `since_ms` of that time.
+// was deleted. A revision is unchanged since `since_ms` of that time.
 constexpr OwnFile kAgeFile{.id = 0x54524341,  // "TRCA"
                            .version = 1,
                            .tables = R"(
@@ -51,7 +51,7 @@ struct AgeStore::Database : OwnDatabase {
     update->exec();
   }
 
-  // Nothing: it is not known here, or was otherwise.
+  // Returns nothing if the revision is not known here or was different.
   std::optional<milliseconds> Since(const Marked& revision) {
     auto select = compiled.Take(
         "SELECT since_ms FROM revision WHERE route = ?1 AND teaching = ?2 AND mark = ?3");
@@ -76,7 +76,7 @@ struct AgeStore::Database : OwnDatabase {
   }
 
   milliseconds passed;
-  milliseconds kept;  // of that on the disk
+  milliseconds kept;  // the part of it that is on the disk
 };
 
 AgeStore::AgeStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
@@ -112,7 +112,7 @@ Result<std::vector<milliseconds>> AgeStore::AgesOf(const std::vector<Marked>& re
       database_->Note(revision);
     }
     if (!news) return ages;
-    database_->KeepPassed();  // nothing is from a time that is yet to come
+    database_->KeepPassed();  // so that no time on the disk is still to come
     news->commit();
     database_->kept = database_->passed;
     return ages;

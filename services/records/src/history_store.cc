@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `number` counts up as changes are noted; of what a server heard late, `at_unix_ms` is earlier.
+// `number` rises as changes are noted. A change that a server hears of late has an earlier
+// `at_unix_ms`.
 constexpr OwnFile kHistoryFile{.id = 0x54524348,  // "TRCH"
                                .version = 1,
                                .tables = R"(
@@ -62,8 +63,8 @@ struct HistoryStore::Database : OwnDatabase {
     note->exec();
   }
 
-  // Now and then, since looking for the oldest is not free; and with the first change of each run,
-  // which may be too short for so many.
+  // It works only now and then, because finding the oldest costs time, and with the first change of
+  // each run, because a run may be too short to reach the bound.
   void Thin() {
     if (since_thinned_ <= most_kept / 100) return;
     since_thinned_ = 0;

@@ -16,8 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `number` counts up in the order of arrival. A mission is found by each route that its orders
-// name.
+// `number` rises in the order of arrival. A mission is found by each route that its orders name.
 constexpr OwnFile kMissionFile{.id = 0x5452434D,  // "TRCM"
                                .version = 2,
                                .tables = R"(
@@ -99,7 +98,7 @@ mission::Record RecordIn(SQLite::Statement& row) {
   return record;
 }
 
-// The number that all on the page are below.
+// Returns the number below which the page's missions are.
 std::int64_t Before(const mission::Query& query) {
   const auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
   return static_cast<std::int64_t>(query.before == 0 ? most : std::min(query.before, most));
@@ -116,7 +115,7 @@ mission::GivenCommand CommandIn(SQLite::Statement& row) {
           .given_unix_ms = row.getColumn(6).getInt64()};
 }
 
-// "2, 6, 7": as SQL has a list.
+// Returns "2, 6, 7", a list for SQL.
 std::string EndedStates() {
   std::string list;
   for (std::uint8_t state = 0; state < mission::kStates; ++state) {
@@ -126,8 +125,8 @@ std::string EndedStates() {
   return list;
 }
 
-// A row's client must be the name in the parameter or one of its processes: ProcessName puts "-p"
-// and digits behind, so that "desk-p7" is of "desk", and "desk-pump" is not.
+// Matches a row's client with the name in the parameter or with one of its processes. ProcessName
+// adds "-p" and digits, so that "desk-p7" belongs to "desk", and "desk-pump" does not.
 std::string IsOrIsOf(int parameter) {
   return fmt::format(
       "(client = ?{0} OR (client GLOB ?{0} || '-p[0-9]*' AND "
@@ -175,7 +174,7 @@ struct MissionStore::Database : OwnDatabase {
     return Get(mission.agent, mission.id).value();
   }
 
-  // A server's own word (0) counts until the robot's does.
+  // A server's own report (0) counts until the robot's arrives.
   bool Change(const mission::Report& report, std::int64_t now_unix_ms) {
     const int changed = Run(
         "UPDATE mission SET change = ?3, state = ?4, task = ?5, way = ?6, waits_for = ?7, detail = "
@@ -188,7 +187,7 @@ struct MissionStore::Database : OwnDatabase {
     return changed > 0;
   }
 
-  // A member's processes are counted together: each `trailcast send` has a name of its own.
+  // A member's processes count together, because each `trailcast send` has a name of its own.
   std::int64_t UnansweredOf(const AgentId& client) {
     auto count = compiled.Take("SELECT count(*) FROM mission WHERE state = 0 AND " + IsOrIsOf(1));
     count->bind(1, WithoutProcess(client.value()));
@@ -219,8 +218,8 @@ struct MissionStore::Database : OwnDatabase {
     return answers;
   }
 
-  // Now and then, since looking for the oldest is not free; and with the first change of each run,
-  // which may be too short for so many.
+  // It works only now and then, because finding the oldest costs time, and with the first change of
+  // each run, because a run may be too short to reach the bound.
   void Thin() {
     if (++since_thinned_ <= most_kept / 100) return;
     since_thinned_ = 0;

@@ -28,7 +28,7 @@ ProposedJoint ProposedIn(SQLite::Statement& row) {
 
 std::string TextIn(SQLite::Statement& row) { return row.getColumn(0).getString(); }
 
-// The first parameters are its places, the others follow.
+// The first parameters are the junction's places; the others follow.
 template <typename... Values>
 void RunAt(OwnDatabase& database, const char* sql, const network::Joint& joint,
            const Values&... values) {
@@ -36,7 +36,7 @@ void RunAt(OwnDatabase& database, const char* sql, const network::Joint& joint,
                values...);
 }
 
-// The first parameters are all of it.
+// The first parameters are the whole junction.
 template <typename... Values>
 void RunWith(OwnDatabase& database, const char* sql, const network::Joint& joint,
              const Values&... values) {

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `shared_by_routes` holds the metres that the routes of a joint that was found share.
+// `shared_by_routes` has the metres that the two routes of a found junction share.
 constexpr OwnFile kNetworkFile{.id = 0x5452434E,  // "TRCN"
                                .version = 1,
                                .tables = R"(

@@ -22,7 +22,7 @@ OwnDatabase::OwnDatabase(std::filesystem::path file, const OwnFile& what)
     throw SQLite::Exception(
         "it holds no " + std::string(own.holds) + ", or those of another version", SQLITE_NOTADB);
   }
-  // SQLite waits for what is in the file to be on the disk, and not for its name.
+  // SQLite waits until a file's contents are on the disk, but not for the file's name.
   if (empty && path != ":memory:" && SyncToDisk(FolderOf(path))) {
     throw SQLite::Exception("its folder cannot be written", SQLITE_CANTOPEN);
   }

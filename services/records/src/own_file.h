@@ -17,17 +17,17 @@ namespace trailcast::store {
 
 // A SQLite file of a server's own, beside its routes.
 struct OwnFile {
-  int id = 0;  // in SQLite's header, as that of a route store has its own
+  int id = 0;  // in SQLite's header, different from a route store's
   int version = 0;
   const char* tables = "";
   const char* holds = "";   // "missions"
-  const char* called = "";  // "mission store", in errors
+  const char* called = "";  // "mission store", for errors
 };
 
-// Such a file, open.
+// An open file of that kind.
 struct OwnDatabase {
-  // Makes the tables in an empty file. Throws SQLite's exceptions, SQLITE_NOTADB for another file.
-  // Who has it locked is another server, not somebody who is done in a moment.
+  // Makes the tables in an empty file. It throws SQLite's exceptions, and SQLITE_NOTADB for another
+  // program's file. A lock means that another server has the file open, so waiting would not help.
   OwnDatabase(std::filesystem::path file, const OwnFile& what);
 
   // Runs `work`, which may throw SQLite's exceptions.
@@ -44,7 +44,7 @@ struct OwnDatabase {
   auto Guarded(const std::string& doing, const Work& work) -> decltype(work()) {
     return Guard(path, own, doing, work);
   }
-  // In a transaction, too, of which nothing stays where `work` fails.
+  // Runs `work` in a transaction, which is rolled back if it fails.
   template <typename Work>
   auto AllOrNothing(const std::string& doing, const Work& work) -> decltype(work()) {
     return Guarded(doing, [&] {
@@ -54,7 +54,7 @@ struct OwnDatabase {
       return done;
     });
   }
-  // What `in` makes of each row.
+  // Returns what `in` makes of each row.
   template <typename Value>
   Result<std::vector<Value>> Read(const std::string& doing, std::string_view sql,
                                   Value (*in)(SQLite::Statement&)) {
@@ -67,7 +67,7 @@ struct OwnDatabase {
   }
 
   // These throw SQLite's exceptions. The values are the parameters from the first on; an empty one
-  // is NULL. Returns how many rows are changed.
+  // is NULL. Run returns how many rows are changed.
   template <typename... Values>
   int Run(std::string_view sql, const Values&... values) {
     auto statement = compiled.Take(sql);
