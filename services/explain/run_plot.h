@@ -6,10 +6,11 @@
 
 namespace trailcast::explain {
 
-// A replay's log as a picture: the path by odometry, coloured by the estimated place beside it;
-// below, over the distance driven (or the frames, without odometry), the turns asked for, the share
-// of the features that survive, and the estimate, or the paper's delta. Fine lines are segment
-// borders, coloured bands where the robot was not sure.
+// Draws a replay's log. The first panel has the path by odometry, coloured by the estimated offset
+// from the taught path. Below are curves over the distance driven (over the frames without
+// odometry): the commanded turns, the share of features that survive, and the estimate or the
+// paper's delta. Fine lines are segment borders, and coloured bands show where the robot was not
+// sure of its place.
 [[nodiscard]] plot::Drawing DrawRun(const agent::RunLog& log);
 
 [[nodiscard]] image::Color PhaseColor(agent::Phase phase);

@@ -8,11 +8,11 @@
 
 namespace trailcast::explain {
 
-// A replay's log in plain words: who followed what, how it ended, where and why it was not sure,
-// and the run in figures. Fits a screen unless `all` is wanted.
+// Tells a replay's log in plain words: who followed which route, how it ended, where and why the
+// robot was not sure, and the run in figures. The text fits a screen unless `all` is set.
 [[nodiscard]] std::string TellStory(const agent::RunLog& log, bool all);
 
-// The same in pieces.
+// The same story in parts.
 struct Happening {
   std::size_t first = 0;  // rows of the log, first to last
   std::size_t last = 0;
@@ -23,21 +23,21 @@ struct Story {
   std::string who;
   std::string outcome;
   std::string how_far;
-  std::vector<std::string> missing;  // of the log: a line each
-  std::vector<Happening> happened;   // the weightiest, in their order
-  std::size_t lesser = 0;            // things that are left out there
+  std::vector<std::string> missing;  // lines about what the log lacks
+  std::vector<Happening> happened;   // the weightiest, in order
+  std::size_t lesser = 0;            // how many others were left out there
   std::vector<std::string> figures;  // a line each
 };
 [[nodiscard]] Story MakeStory(const agent::RunLog& log, std::size_t most_happenings);
 
-// What is to be said of one frame, by what it is about.
+// A statement about one frame, and its subject.
 struct Said {
   std::string about;
   std::string text;
 };
 [[nodiscard]] std::vector<Said> TellFrame(const agent::RunLog& log, std::size_t row);
 
-// "'hall': 17 segments, 14.8 m, taught by scout (webcam 320x240); followed by ..."
+// Returns "'hall': 17 segments, 14.8 m, taught by scout (webcam 320x240); followed by ...".
 [[nodiscard]] std::string WhoFollowedWhat(const agent::RunLog& log);
 [[nodiscard]] std::string Outcome(const agent::RunLog& log);
 

@@ -26,7 +26,7 @@ constexpr double kSlowShare = 0.75;
 constexpr double kNotBelieved = 0.2;
 constexpr std::size_t kShortest_frames = 5;
 
-// Rows after one another for which `holds`, told by `tell` from their first, last and worst.
+// Consecutive rows for which `holds`. `tell` describes them by their first, last and worst row.
 struct Stretches {
   std::string kind;
   double weight = 0.0;
@@ -112,7 +112,8 @@ Stretches OdometryLies(const RunLog& log) {
           }};
 }
 
-// Driving more slowly than the segment was taught, though sure; the route's end is approached so.
+// Finds where the robot drove more slowly than the segment was taught, although it was sure. The
+// route's end is approached that way.
 std::vector<Incident> Slow(const RunLog& log) {
   std::vector<double> taught_mps(log.frames.size(), 0.0);
   const auto stays = StaysOf(log);
@@ -134,7 +135,7 @@ std::vector<Incident> Slow(const RunLog& log) {
                     }});
 }
 
-// Many features gone from one frame to the next.
+// Finds where many features are lost from one frame to the next.
 std::vector<Incident> Drops(const RunLog& log) {
   std::vector<Incident> incidents;
   for (std::size_t i = 1; i < log.frames.size(); ++i) {

@@ -16,7 +16,7 @@ using agent::RunLog;
 
 const char* SideOf(double left) { return left > 0.0 ? "left" : "right"; }
 
-// How the phase that the frame is in began.
+// Says how the frame's phase began.
 std::string Mode(const RunLog& log, const FrameRow& row) {
   std::string text = ToString(row.phase);
   const auto after =

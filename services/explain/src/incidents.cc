@@ -12,10 +12,10 @@ namespace {
 using agent::RunLog;
 
 constexpr double kFewFound = 0.4;
-// A segment may be a little longer by the follower's wheels than by the scout's.
+// A segment may be a little longer by the follower's odometry than by the scout's.
 constexpr double kOverrunShare = 0.15;
 constexpr double kOverrun_m = 0.2;
-// What of one kind lies no further apart is one incident.
+// Incidents of one kind that are no further apart are one.
 constexpr double kClose_m = 1.0;
 constexpr double kClose_frames = 45.0;
 
@@ -25,7 +25,7 @@ void AddHandOver(const Stay& stay, std::vector<Incident>& incidents) {
   const double stored = stay.begun->fields.Number("stored").value_or(0.0);
   const double share = Share(found, stored);
   const bool wide = stay.begun->fields.Find("search") == "wide";
-  if (stay.begun->what == "recovered") return;  // told among the frames
+  if (stay.begun->what == "recovered") return;  // the frames' incidents have it
   if (stored > 0.0 && share < kFewFound) {
     incidents.push_back({"few", stay.first, stay.first, 25.0 + 10.0 * (kFewFound - share),
                          fmt::format("hand-over found only {:.0f} of {:.0f} features{}", found,
@@ -79,7 +79,7 @@ std::vector<Incident> SegmentIncidents(const RunLog& log) {
   const auto stays = StaysOf(log);
   for (const Stay& stay : stays) {
     AddHandOver(stay, incidents);
-    // The last one's end is the run's.
+    // The last segment's end is the run's.
     if (&stay != &stays.back()) AddOverrun(log, stay, incidents);
   }
   return incidents;

@@ -8,25 +8,27 @@
 
 namespace trailcast::explain {
 
-// Something in a run that is worth a line.
+// An event of a run that is worth a line.
 struct Incident {
-  std::string kind;       // what can be merged with what
+  std::string kind;       // incidents of the same kind can be merged
   std::size_t first = 0;  // rows of the log, first to last
   std::size_t last = 0;
-  double weight = 0.0;  // how much it matters beside the others
+  double weight = 0.0;  // how much it matters compared with the others
   std::string text;
   int times = 1;
 };
 
-// Of the phases: where the robot was not sure, for how long, and what became of its features.
+// Finds incidents of phases: where the robot was not sure, for how long, and what became of its
+// features.
 [[nodiscard]] std::vector<Incident> PhaseIncidents(const agent::RunLog& log);
-// Of the segments: hand-overs that found little, milestones driven past.
+// Finds incidents of segments: hand-overs that found few features, milestones that were overrun.
 [[nodiscard]] std::vector<Incident> SegmentIncidents(const agent::RunLog& log);
-// Of the frames: features lost at once or disagreeing, a place beside the path, a speed held back.
+// Finds incidents of frames: features that were lost at once or disagree, an offset from the path,
+// a reduced speed.
 [[nodiscard]] std::vector<Incident> FrameIncidents(const agent::RunLog& log);
 
-// All of them, in the order in which they began; those of one kind that follow each other closely
-// are one, with the text of the weightiest.
+// Returns all incidents in the order in which they began. Those of one kind that follow each other
+// closely are merged and have the text of the weightiest.
 [[nodiscard]] std::vector<Incident> FindIncidents(const agent::RunLog& log);
 
 }  // namespace trailcast::explain

@@ -41,11 +41,11 @@ double WeightOf(Phase phase) {
   return 0.0;
 }
 
-// A log, and what is looked up in it for each of its spells: it may have as many of them as rows.
+// A log with lookups for its spells, of which it may have as many as rows.
 struct Told {
   const RunLog& log;
   std::vector<Stay> stays;
-  std::map<int, const std::string*> reasons{};  // by frame: what the session said as a phase began
+  std::map<int, const std::string*> reasons{};  // by frame, the session's reason as a phase began
 
   explicit Told(const RunLog& of) : log(of), stays(StaysOf(of)) {
     for (const RunEvent& event : of.events) {
@@ -59,8 +59,8 @@ std::string ReasonAt(const Told& told, std::size_t row) {
   return at == told.reasons.end() ? "" : *at->second;
 }
 
-// What became of a segment's features from its beginning to a row: "12 of 34 were found at its
-// start, 4 left the picture, ...".
+// Tells what became of a segment's features from its beginning to a row: "12 of 34 were found at
+// its start, 4 left the picture, ...".
 std::string FateOfFeatures(const Told& told, std::size_t row) {
   const RunLog& log = told.log;
   const auto stay =
@@ -113,7 +113,8 @@ const char* Meaning(Phase phase) {
   }
 }
 
-// Of a stretch where it was not sure, but not lost: how long, and the least that it saw.
+// Describes a spell in which the robot was not sure, but not lost either: its length and the fewest
+// features that it saw.
 std::string TellSpell(const Told& told, const Spell& spell, double driven_m) {
   const RunLog& log = told.log;
   const bool by_distance =

@@ -172,7 +172,7 @@ void AddEvidence(const RunLog& log, std::vector<std::string>& lines) {
   lines.push_back(Line("odometry", text));
 }
 
-// Which frames took how long: the searches, and the rest.
+// Frames by what they cost: those with a search, of each kind, and plain ones.
 enum FrameKind { kPlain, kNear, kWide, kAgain, kSearching, kFrameKinds };
 
 std::vector<FrameKind> KindsOf(const RunLog& log) {
@@ -186,7 +186,7 @@ std::vector<FrameKind> KindsOf(const RunLog& log) {
     const bool again = event.what == "looked-again" || event.what == "recovered";
     if (kinds.empty() || (event.what != "hand-over" && !again)) continue;
     FrameKind& kind = kinds[RowOfFrame(log, event.frame)];
-    if (kind == kSearching) continue;  // that is what takes the time
+    if (kind == kSearching) continue;  // the searches themselves take the time
     kind = again ? kAgain : event.fields.Find("search") == "wide" ? kWide : kNear;
   }
   return kinds;

@@ -7,8 +7,8 @@
 
 namespace trailcast::explain {
 
-// A run in figures, one line each, "what   how much"; only those that the method and the robot
-// have.
+// Returns a run in figures, one line each, "what   how much", without those that the method or the
+// robot does not have.
 [[nodiscard]] std::vector<std::string> RunFigures(const agent::RunLog& log);
 
 }  // namespace trailcast::explain

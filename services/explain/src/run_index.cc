@@ -21,7 +21,7 @@ std::vector<Stay> StaysOf(const RunLog& log) {
     if (stays.empty() || stays.back().segment != segment) stays.push_back({segment, i, i, nullptr});
     stays.back().end = i + 1;
   }
-  // A log may have as many events as stays.
+  // A log may have as many events as stays, so they are sorted by segment first.
   std::unordered_map<double, std::vector<Stay*>> by_segment;
   for (Stay& stay : stays) by_segment[stay.segment].push_back(&stay);
   for (const RunEvent& event : log.events) {

@@ -8,18 +8,18 @@
 
 namespace trailcast::explain {
 
-// One stay in a segment: rows [first, end) of the log. The log's lines may be damaged, so there may
-// be no word of how it began.
+// One stay in a segment: rows [first, end) of the log. Since the log's lines may be damaged, the
+// event with which it began may be missing.
 struct Stay {
   int segment = 0;
   std::size_t first = 0;
   std::size_t end = 0;
-  const agent::RunEvent* begun = nullptr;  // its hand-over or recovery; null: not in the log
+  const agent::RunEvent* begun = nullptr;  // its hand-over or recovery; null if the log lacks it
 };
-// Point into `log`.
+// The stays point into `log`.
 [[nodiscard]] std::vector<Stay> StaysOf(const agent::RunLog& log);
 
-// A run of rows in one phase.
+// Consecutive rows in one phase.
 struct Spell {
   agent::Phase phase = agent::Phase::kWaiting;
   std::size_t first = 0;
@@ -27,15 +27,15 @@ struct Spell {
 };
 [[nodiscard]] std::vector<Spell> SpellsOf(const agent::RunLog& log);
 
-// The row of that frame, or the next one that is there; the last for frames beyond. Not for logs
-// without rows.
+// Returns the row of that frame, or else the next one, or the last for frames beyond the end. The
+// log must have rows.
 [[nodiscard]] std::size_t RowOfFrame(const agent::RunLog& log, int frame);
 
-// Whether places are told in metres driven, or in frames: robots without odometry.
+// Says whether places are in metres driven; a robot without odometry has them in frames.
 [[nodiscard]] bool HasOdometry(const agent::RunLog& log);
-// How far along the run: metres driven, or the frame's number.
+// Returns how far along the run a row is: metres driven, or the frame's number.
 [[nodiscard]] double PlaceOf(const agent::FrameRow& row);
-// "  3.21 m   22 %  segment 4 "
+// Returns "  3.21 m   22 %  segment 4 ".
 [[nodiscard]] std::string PlaceText(const agent::FrameRow& row);
 
 [[nodiscard]] inline double Share(double part, double whole) {

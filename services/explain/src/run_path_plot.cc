@@ -20,13 +20,13 @@ using image::Color;
 using image::PixelPoint;
 using plot::Drawing;
 
-constexpr Color kPaleGrid{232, 232, 232};  // the path is thin
+constexpr Color kPaleGrid{232, 232, 232};  // pale, because the path is thin
 constexpr double kTextHeight_px = 10.0;
 constexpr double kHighest_px = 420.0;
 constexpr double kLowest_px = 120.0;
 constexpr double kScaleBar_px = 140.0;
-constexpr double kLeastDriven_m = 0.1;  // less is no path to look at
-// Offsets below this are all well: a run without trouble shall not look colourful.
+constexpr double kLeastDriven_m = 0.1;  // a shorter path is not drawn
+// Smaller offsets are all good, and a run without trouble must not look colourful.
 constexpr double kLeastFullScale_m = 0.1;
 
 struct Extent {
@@ -62,7 +62,7 @@ struct Map {
   }
 };
 
-// Blue on the path, over yellow, to red far beside it.
+// Returns blue on the path, through yellow, to red far beside it.
 Color OffsetColor(double share) {
   const double s = std::clamp(share, 0.0, 1.0);
   const auto mix = [&](double from, double half, double to) {
@@ -103,7 +103,7 @@ void DrawGrid(Drawing& drawing, const Map& map) {
   }
 }
 
-// What was not sure is a broad stroke under the path.
+// A broad stroke under the path marks where the robot was not sure.
 void DrawPath(Drawing& drawing, const Map& map, const RunLog& log, double full_scale_m) {
   for (const bool under : {true, false}) {
     for (std::size_t i = 1; i < log.frames.size(); ++i) {
@@ -117,7 +117,7 @@ void DrawPath(Drawing& drawing, const Map& map, const RunLog& log, double full_s
                                        : plot::kInk;
       const PixelPoint at = map.At(*row.x_m, *row.y_m);
       drawing.Line({map.At(*before.x_m, *before.y_m), at}, color, under ? 12.0 : 3.0);
-      // A robot that stands draws no line.
+      // A robot that stands would draw no line.
       if (under) drawing.Disc(at, 6.0, color);
     }
   }
@@ -130,7 +130,7 @@ void DrawSegments(Drawing& drawing, const Map& map, const RunLog& log) {
     if (!row.x_m || !row.y_m) continue;
     const PixelPoint at = map.At(*row.x_m, *row.y_m);
     drawing.Disc(at, 3.0, plot::kInk);
-    // Numbers of short segments would lie on each other.
+    // Numbers of short segments would overlap.
     if (std::hypot(at.x - last.x, at.y - last.y) < 22.0) continue;
     drawing.Text(std::to_string(stay.segment), {at.x + 5.0, at.y - 6.0}, kTextHeight_px,
                  plot::kInk);

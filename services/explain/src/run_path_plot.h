@@ -5,11 +5,11 @@
 
 namespace trailcast::explain {
 
-// How high a panel of this width has to be for the path: none without odometry, or
-// where it stood.
+// Returns the height that a panel of this width needs for the path, or 0 without odometry or if the
+// robot did not move.
 [[nodiscard]] double PathPanelHeight(const agent::RunLog& log, double width_px);
 
-// The path by odometry into `box`, north of nowhere: x and y are the odometry's own.
+// Draws the path by odometry into `box`. The axes are the odometry's own x and y.
 void DrawPathPanel(plot::Drawing& drawing, const plot::PixelBox& box, const agent::RunLog& log);
 
 }  // namespace trailcast::explain

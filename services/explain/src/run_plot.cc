@@ -29,7 +29,7 @@ constexpr int kWidth_px = 1200;
 constexpr double kLeft_px = 62.0;
 constexpr double kRight_px = 22.0;
 constexpr double kHead_px = 78.0;
-constexpr double kGap_px = 38.0;  // between panels: a title and a legend fit
+constexpr double kGap_px = 38.0;  // a title and a legend fit between panels
 constexpr double kStripHeight_px = 150.0;
 constexpr double kAxis_px = 48.0;
 constexpr double kPlotTextHeight_px = 11.0;
@@ -144,7 +144,7 @@ bool AnyFrame(const RunLog& log, Predicate holds) {
   return std::any_of(log.frames.begin(), log.frames.end(), holds);
 }
 
-// Those of which the method says something.
+// Returns the charts for which the method gives values.
 std::vector<plot::StripChart> Charts(const RunLog& log) {
   std::vector<plot::StripChart> charts{Turns(log)};
   if (AnyFrame(log, [](const FrameRow& row) { return row.stored > 0; })) {
@@ -165,7 +165,8 @@ std::vector<plot::StripChart> Charts(const RunLog& log) {
   return charts;
 }
 
-// Metres; seconds for a robot that never got going, frames for one without odometry.
+// The axis has metres, or seconds for a robot that never drove off, or frames for one without
+// odometry.
 plot::ChartAxis Axis(const RunLog& log) {
   const bool moved = HasOdometry(log) && PlaceOf(log.frames.back()) >= kLeastPlotted_m;
   const bool stood = HasOdometry(log) && !moved;
@@ -182,7 +183,7 @@ plot::ChartAxis Axis(const RunLog& log) {
   return axis;
 }
 
-// Who, what came of it, and what the bands mean.
+// Writes who followed which route, the outcome, and what the bands mean.
 void DrawHead(Drawing& drawing, const RunLog& log) {
   drawing.Text(WhoFollowedWhat(log), {kLeft_px, 22.0}, kPlotTextHeight_px, plot::kInk);
   drawing.Text(Outcome(log), {kLeft_px, 42.0}, kPlotTextHeight_px, plot::kInk);

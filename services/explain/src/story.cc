@@ -37,7 +37,7 @@ std::string HowFar(const RunLog& log) {
   return text + fmt::format(", {:.0f} % of the route", 100.0 * last.progress);
 }
 
-// The weightiest, in the order in which they happened.
+// Returns the weightiest incidents in the order in which they happened.
 std::vector<Incident> Shortened(std::vector<Incident> incidents, std::size_t most) {
   std::stable_sort(incidents.begin(), incidents.end(),
                    [](const Incident& a, const Incident& b) { return a.weight > b.weight; });
@@ -47,7 +47,7 @@ std::vector<Incident> Shortened(std::vector<Incident> incidents, std::size_t mos
   return incidents;
 }
 
-// Longer lines go on below, under their own beginning.
+// Breaks long lines; the continuation is aligned with the text.
 std::string Wrapped(const std::string& place, const std::string& text) {
   std::string lines = place;
   std::size_t width = place.size();
@@ -102,7 +102,7 @@ std::string WhatHappened(const Story& story) {
   return text;
 }
 
-// Lists all that is in the log beside frames.
+// Lists all events of the log.
 std::string Events(const RunLog& log) {
   std::string text = "Events\n";
   for (const agent::RunEvent& event : log.events) {
