@@ -13,40 +13,40 @@
 
 namespace trailcast::joints {
 
-// A stretch of another route that may come to the same place.
+// A section of another route that may come to the same place.
 struct NearRoute {
   route::RouteKey key;
   SegmentIndex first;
   SegmentIndex last;
-  std::size_t views = 0;  // of the route asked for that are like one of these segments, in order
+  std::size_t views = 0;  // how many of this route's views resemble these segments, in order
 
   bool operator==(const NearRoute&) const = default;
 };
 
 struct NearRouteOptions {
-  std::size_t most_alike = 10;  // segments a view
+  std::size_t most_alike = 10;  // segments for each view
   std::size_t least_views = 2;
-  std::uint32_t margin = 3;      // segments before the first and after the last that was alike
-  std::size_t most_routes = 50;  // stretches of them
-  // Of one route so many stretches, those after the first of so many views at least.
+  std::uint32_t margin = 3;      // segments added before the first match and after the last
+  std::size_t most_routes = 50;  // at most so many sections of routes
+  // One route gives at most so many sections; those after the first need at least so many views.
   std::size_t most_stretches = 3;
   std::size_t least_views_again = 4;
 };
 
-// Which of an index's routes are worth comparing with this one (find_joints.h): several of its
-// views have some of their segments among those most like them, in order. View after view, for who
-// has little time at once.
+// Finds the routes of an index that are worth comparing with this one (find_joints.h): several of
+// its views have segments of theirs among their nearest matches, in order. It takes one view at a
+// time, for callers that have little time at once.
 class NearRouteSearch {
  public:
   explicit NearRouteSearch(RouteId self, const NearRouteOptions& options = {})
       : self_(std::move(self)), options_(options) {}
 
-  // The route's next view.
+  // Takes the route's next view.
   void Look(view::ViewIndex& index, std::span<const route::ViewFeature> view);
-  // Only the last so many count.
+  // Drops all but the last so many views.
   void KeepLast(std::uint32_t views);
-  // Those with the most such views first; of a route that is met again, or in another order, a
-  // stretch for each. Teachings of the same route are left out.
+  // Returns the sections with the most matching views first. A route that is met twice, or in
+  // another order, gives a section for each. Teachings of the same route are left out.
   [[nodiscard]] std::vector<NearRoute> Found() const;
 
  private:
@@ -63,7 +63,7 @@ class NearRouteSearch {
   std::deque<Hit> hits_;
 };
 
-// The same of a whole route.
+// Does the same for a whole route.
 [[nodiscard]] std::vector<NearRoute> NearRoutes(view::ViewIndex& index, const RouteId& self,
                                                 std::span<const route::Segment> route,
                                                 const NearRouteOptions& options = {});

@@ -9,32 +9,35 @@
 
 namespace trailcast::joints {
 
-// The key views of a route, or of a stretch of one, ready to be compared with another's.
+// The key views of a route, or of a section of one, prepared for comparison with another's.
 class RouteViews {
  public:
   struct View {
     double along = 0.0;    // from the route's beginning, in its units
-    double heading = 0.0;  // taught, radians from the route's beginning, counter-clockwise positive
+    double heading = 0.0;  // taught heading in radians from the route's beginning,
+                           // counter-clockwise positive
     bool reverse = false;  // the robot drove backwards
-    // By how much of its logarithm things grow in the picture, a unit further along; 0: not known.
+    // The logarithm of how much things grow in the picture a unit further along; 0 if not known.
     double growth = 0.0;
     view::ViewTable table;
   };
 
-  // `width_px`: of the scout's pictures, above 0. `along`: where the first segment begins.
+  // `width_px` is the width of the scout's pictures, above 0; `along` is where the first segment
+  // begins.
   explicit RouteViews(int width_px, double along = 0.0)
       : width_px_(width_px), along_(along), begin_(along) {}
 
-  // The next segment, in order.
+  // Adds the next segment.
   void Add(const route::Segment& segment);
 
   [[nodiscard]] const std::vector<View>& views() const { return views_; }
-  // Whether its units are metres, or, of a route taught without odometry, seconds of teaching.
+  // Says whether its units are metres. A route taught without odometry has seconds of teaching.
   [[nodiscard]] bool metric() const { return metric_; }
-  // By how many half widths of the picture a radian of turning shifts it, by what was taught in
-  // turns: of a camera of 60 degrees in the middle of its picture 1.7. Nothing if it never turned.
+  // Returns by how many half widths a radian of turning shifts the picture, as learnt from the
+  // taught turns: 1.7 in the middle of a picture of 60 degrees. It is nothing if the route never
+  // turns.
   [[nodiscard]] std::optional<double> half_widths_a_radian() const;
-  // Taught heading there, straight between views. Not of a route without views.
+  // Returns the taught heading there, interpolated between views, of which there must be some.
   [[nodiscard]] double HeadingAt(double along) const;
   [[nodiscard]] double begin() const { return begin_; }
   [[nodiscard]] double end() const { return along_; }

@@ -11,7 +11,7 @@ struct Weighed {
   double weight = 0.0;
 };
 
-// Nothing of nothing.
+// Returns nothing if there are no values.
 [[nodiscard]] inline std::optional<double> Median(std::vector<Weighed> values) {
   if (values.empty()) return std::nullopt;
   std::sort(values.begin(), values.end(),

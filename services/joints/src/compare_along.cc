@@ -13,7 +13,7 @@ namespace {
 
 using route::Segment;
 
-// Refreshing leaves a route's path as it was.
+// Refreshing does not change a route's path.
 bool HaveOnePath(std::span<const Segment> a, std::span<const Segment> b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Segment& x, const Segment& y) {
     return x.length_m == y.length_m && x.duration_s == y.duration_s && x.heading == y.heading &&
@@ -22,7 +22,7 @@ bool HaveOnePath(std::span<const Segment> a, std::span<const Segment> b) {
   });
 }
 
-// However often it was missed.
+// The count of visits that missed it does not matter.
 bool IsSame(const route::Feature& a, const route::Feature& b) {
   return a.patch == b.patch && a.track == b.track && a.descriptor == b.descriptor;
 }
@@ -71,13 +71,13 @@ std::vector<Part> CompareRefreshed(std::span<const Segment> a, std::span<const S
   return parts;
 }
 
-// Where along B a place along A is.
+// A place along A and the place along B that corresponds to it.
 struct Knot {
   double a = 0.0;
   double b = 0.0;
 };
 
-// Of joints those that lie in order along both routes and have most evidence.
+// Returns the junctions that lie in order along both routes and have the most evidence together.
 std::vector<Joint> InOrder(std::vector<Joint> joints) {
   std::sort(joints.begin(), joints.end(),
             [](const Joint& x, const Joint& y) { return x.at_a < y.at_a; });
@@ -100,7 +100,7 @@ std::vector<Joint> InOrder(std::vector<Joint> joints) {
   return chosen;
 }
 
-// How two routes lie along each other: straight between the ends of their joints.
+// Maps two routes onto each other, linearly between the ends of their junctions.
 class Alignment {
  public:
   Alignment(const std::vector<Joint>& joints, const RouteViews& a, const RouteViews& b, bool whole,
@@ -111,7 +111,7 @@ class Alignment {
       Add({joint.end_a, joint.end_b});
     }
     if (knots_.empty() || !whole) return;
-    // Paces that differ are not known beyond.
+    // Speeds of teaching that differ are not known beyond the ends.
     const Knot first = knots_.front();
     const Knot last = knots_.back();
     const double before = std::min(first.a - a.begin(), first.b - b.begin());
@@ -120,7 +120,7 @@ class Alignment {
     if (after > 0.0) knots_.push_back({last.a + after, last.b + after});
   }
 
-  // Nothing where they do not go the same way.
+  // Both return nothing where the routes do not go the same way.
   [[nodiscard]] std::optional<double> OnB(double a) const { return At(a, &Knot::a, &Knot::b); }
   [[nodiscard]] std::optional<double> OnA(double b) const { return At(b, &Knot::b, &Knot::a); }
 
@@ -156,7 +156,8 @@ int CountFound(const std::vector<bool>& found) {
   return static_cast<int>(std::count(found.begin(), found.end(), true));
 }
 
-// Views near there that look about the same way: in a turn others have nothing to say of it.
+// Returns the views near that place with about the same heading. In a turn, other views say nothing
+// about it.
 std::vector<std::size_t> ViewsAbout(const RouteViews& route, double along, bool reverse) {
   constexpr double kNear = 1.5;
   constexpr double kAsTurned_rad = 0.3;
@@ -179,7 +180,7 @@ std::vector<view::Comparison::Pair> InCommon(const RouteViews::View& one,
   return std::move(found.pairs);
 }
 
-// Which features of either route's views were found in the other's near by.
+// Records which features of either route's views were found in the other's nearby.
 class Sighted {
  public:
   Sighted(const RouteViews& a, const RouteViews& b, const Alignment& alignment,
@@ -190,7 +191,7 @@ class Sighted {
     }
   }
 
-  // One for each feature; none: no view was to be compared with it.
+  // Each has one value for each feature, or none if no view was to be compared with it.
   [[nodiscard]] const std::vector<bool>& in_a(std::size_t view) const { return in_a_[view]; }
   [[nodiscard]] const std::vector<bool>& in_b(std::size_t view) const { return in_b_[view]; }
 
@@ -214,7 +215,7 @@ class Sighted {
   const JointOptions& options_;
 };
 
-// How many of a view's features the route's own others near by show.
+// Counts a view's features that the route's own neighbouring views show.
 int CountShownAgain(const RouteViews& route, std::size_t i, const JointOptions& options) {
   const RouteViews::View& view = route.views()[i];
   std::vector<bool> again(view.table.size());
@@ -225,7 +226,7 @@ int CountShownAgain(const RouteViews& route, std::size_t i, const JointOptions& 
   return CountFound(again);
 }
 
-// The part that a place lies on, if there is one.
+// Returns the part that a place lies on, if there is one.
 Part* PartAt(std::vector<Part>& parts, double along) {
   const auto at =
       std::find_if(parts.begin(), parts.end(), [&](const Part& part) { return along <= part.end; });
@@ -278,8 +279,8 @@ std::vector<Part> CompareByViews(const ComparisonRoute& a, const ComparisonRoute
   return shared;
 }
 
-// Segments before a turn or a wall are short: several are one part, and what is left at the end
-// goes with the one before.
+// Segments before a turn or a wall are short. Several of them make one part, and a rest at the end
+// joins the part before.
 std::vector<Part> NotShort(const std::vector<Part>& parts) {
   constexpr double kShortest = 1.0;
   constexpr double kNothing = 1e-6;
@@ -336,7 +337,7 @@ Part Together(std::span<const Part> parts) {
 }
 
 std::vector<Part> Differing(std::span<const Part> parts) {
-  constexpr int kEnough = 8;  // features to tell a share by
+  constexpr int kEnough = 8;  // features that a share needs
   constexpr double kClearly = 0.6;
   constexpr double kSigmas = 2.0;
   constexpr double kAside_m = 0.3;

@@ -11,14 +11,14 @@
 namespace trailcast::joints {
 namespace {
 
-// Two views that have something in common.
+// Two views that match.
 struct Alike {
   std::size_t a = 0;  // positions
   std::size_t b = 0;
   double at_a = 0.0;
   double at_b = 0.0;  // where on B things look as large as in A's view, once that is known
   int agreed = 0;
-  double log_scale = 0.0;  // of B's picture to A's
+  double log_scale = 0.0;  // scale from A's picture to B's
   double shift_u = 0.0;    // half widths
   double turned = 0.0;     // B's taught heading less A's
   double worth = 0.0;
@@ -58,9 +58,9 @@ std::vector<Alike> FindAlike(const RouteViews& a, const RouteViews& b,
   return found;
 }
 
-// The same of one route and itself: later views, once those in between have shown something else.
+// Does the same within one route, for later views after others in between that match nothing.
 std::vector<Alike> FindAlike(const RouteViews& route, const JointOptions& options) {
-  constexpr int kLeft = 2;  // views in a row
+  constexpr int kLeft = 2;  // consecutive views
   std::vector<Alike> found;
   for (std::size_t i = 0; i < route.views().size(); ++i) {
     if (route.views()[i].reverse) continue;
@@ -81,8 +81,8 @@ std::vector<Alike> FindAlike(const RouteViews& route, const JointOptions& option
   return found;
 }
 
-// How much larger B's camera shows things. Turns tell; else what the views say that have most in
-// common, for those are of about one place.
+// Returns how much larger B's camera shows things. Turns tell it; otherwise the views with most in
+// common do, because they are from about one place.
 double LogMagnification(std::span<const Alike> alike, int least_agreed) {
   constexpr double kSigma = 0.08;
   double best = 0.0;
@@ -110,9 +110,9 @@ double LogMagnification(const RouteViews& a, const RouteViews& b, std::span<cons
   return LogMagnification(alike, least_agreed);
 }
 
-// What is alike in two views is further away than what was tracked from the one to the other, and
-// grows the less: its share of that growth, by pairs that share a view, of neighbours on the other
-// route.
+// Features that match between two views are further away than those that were tracked from one to
+// the next, and so grow less. Returns their share of that growth, from pairs that share a view and
+// match neighbours on the other route.
 double ShareOfGrowth(const RouteViews& a, const RouteViews& b, std::span<const Alike> alike,
                      bool metric) {
   constexpr std::size_t kEnough = 3;
@@ -131,7 +131,7 @@ double ShareOfGrowth(const RouteViews& a, const RouteViews& b, std::span<const A
       if (metric && y.b == x.b) {
         grown = (x.at_a - y.at_a) * 0.5 * (a.views()[x.a].growth + a.views()[y.a].growth);
       }
-      if (std::abs(grown) < 0.05) continue;  // too little to tell
+      if (std::abs(grown) < 0.05) continue;  // too little to be measured
       shares.push_back({(y.log_scale - x.log_scale) / grown, 1.0 * std::min(x.agreed, y.agreed)});
     }
   }
@@ -177,8 +177,8 @@ class Finder {
   }
 
  private:
-  // How much further along a view is in which things look so much larger. Where they hardly grow on
-  // the way, how large they look says little of the place.
+  // Returns how much further along a view is in which things look so much larger. Where they hardly
+  // grow, their size says little about the place.
   [[nodiscard]] double Moved(double log_scale, double growth) const {
     if (growth <= 0.0) return 0.0;
     const double sigma = metric_ ? options_.off_sigma_m : options_.off_sigma_s;
@@ -186,7 +186,7 @@ class Finder {
     return std::clamp(log_scale / growth / (1.0 + untold * untold), -2.0 * sigma, 2.0 * sigma);
   }
 
-  // Not just a stretch along which things change slowly.
+  // Says whether this is more than a section along which things change slowly.
   [[nodiscard]] bool ComesBack(const Joint& joint) const {
     return joint.at_b - joint.at_a >=
            std::max(options_.least_loop, std::min(joint.length(), options_.sure_loop));
@@ -219,7 +219,7 @@ class Finder {
     std::size_t best = kNone;
     for (std::size_t i = 0; i < alike_.size() && !GivesUp(options_); ++i) {
       for (std::size_t j = i; j-- > 0;) {
-        if (TooFarOnA(alike_[j], alike_[i])) break;  // as all before it are
+        if (TooFarOnA(alike_[j], alike_[i])) break;  // as are all before it
         if (sums[j] <= sums[i] || !Follows(alike_[j], alike_[i])) continue;
         sums[i] = sums[j];
         befores[i] = j;
@@ -239,7 +239,7 @@ class Finder {
     return sum;
   }
 
-  // All that says the same as the chain does, or would say it twice.
+  // Removes all pairs that repeat or contradict what the chain says.
   void TakeOut(std::span<const std::size_t> chain) {
     const Alike first = alike_[chain.front()];
     const Alike last = alike_[chain.back()];
@@ -265,10 +265,10 @@ class Finder {
     return joint;
   }
 
-  // Where both are at this pair of the chain; on neither beyond its ends.
+  // Returns where both routes are at this pair of the chain; beyond its ends, the ends hold.
   [[nodiscard]] std::pair<double, double> PlacesAt(std::span<const std::size_t> chain,
                                                    const Alike& pair) const {
-    // The pace is not known without odometry: the pair alone.
+    // Without odometry the speed of teaching is not known, so the pair alone counts.
     if (!metric_) return {pair.at_a, std::clamp(pair.at_b, b_.begin(), b_.end())};
     constexpr double kNear_m = 4.0;
     std::vector<Weighed> offsets;
@@ -282,7 +282,7 @@ class Finder {
   }
 
   void SetHeading(std::span<const std::size_t> chain, Joint& joint) const {
-    constexpr double kHalfWidthsARadian = 1.73;  // of a camera of 60 degrees
+    constexpr double kHalfWidthsARadian = 1.73;  // for a camera of 60 degrees
     const auto told = b_.half_widths_a_radian();
     joint.heading_scaled = told.has_value();
     const double half_widths = told.value_or(kHalfWidthsARadian);
@@ -295,7 +295,7 @@ class Finder {
     joint.heading_rad = *Median(std::move(headings));
   }
 
-  std::vector<Alike> alike_;  // by A's views, then B's
+  std::vector<Alike> alike_;  // by A's views, then by B's
   bool metric_;
   bool loop_;
   const RouteViews& b_;

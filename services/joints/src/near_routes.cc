@@ -11,18 +11,19 @@ namespace trailcast::joints {
 namespace {
 
 struct ViewOnSegment {
-  std::uint32_t view = 0;  // of the route asked for
+  std::uint32_t view = 0;  // of this route
   std::uint32_t segment = 0;
 };
 
-// The longest sequence of them, each a later view's, none on an earlier segment; of these one that
-// ends on the earliest segment. By rising view and, of one view, falling segment.
+// Returns the longest sequence of hits, each of a later view, none on an earlier segment; among the
+// longest, one that ends on the earliest segment. `hits` are by rising view and, within a view, by
+// falling segment.
 NearRoute LongestInOrder(const route::RouteKey& key, const std::vector<ViewOnSegment>& hits) {
   struct Sequence {
     std::uint32_t first = 0;
     std::uint32_t last = 0;
   };
-  std::vector<Sequence> ending;  // of each length the one that ends on the earliest segment
+  std::vector<Sequence> ending;  // for each length, the one that ends on the earliest segment
   for (const ViewOnSegment& hit : hits) {
     const auto at = std::upper_bound(
         ending.begin(), ending.end(), hit.segment,
@@ -62,7 +63,7 @@ std::vector<NearRoute> NearRouteSearch::Found() const {
   std::vector<NearRoute> near;
   for (const auto& [key, number] : numbers_) {
     auto& of_route = hits[number];
-    // Of one view no two are in a sequence: the later segment comes first.
+    // A sequence has at most one hit of a view, so the later segment comes first.
     std::sort(of_route.begin(), of_route.end(), [](const auto& one, const auto& other) {
       return one.view != other.view ? one.view < other.view : one.segment > other.segment;
     });

@@ -9,8 +9,8 @@
 
 namespace trailcast::joints {
 
-// What carries the features over from a segment's first picture to its last: one scale and one
-// shift, in the least-squares sense. Nothing if they are too few to tell.
+// Returns the scale and shift that map the features from a segment's first picture to its last, in
+// the least-squares sense. It is nothing if they are too few.
 std::optional<RouteViews::Change> RouteViews::ChangeAlong(const route::Segment& segment) const {
   constexpr std::size_t kEnough = 6;
   if (segment.features.size() < kEnough) return std::nullopt;

@@ -8,7 +8,7 @@
 namespace trailcast::joints {
 
 TaughtPath::TaughtPath(std::span<const route::Segment> segments) {
-  constexpr int kSteps = 8;  // of a segment
+  constexpr int kSteps = 8;  // for each segment
   Pose pose;
   poses_.push_back(pose);
   for (const route::Segment& segment : segments) {

@@ -10,7 +10,7 @@
 
 namespace trailcast::joints {
 
-// A route's path by its odometry, from its beginning at the origin, heading along x.
+// A route's path by its odometry, which begins at the origin and heads along x.
 class TaughtPath {
  public:
   struct Pose {
@@ -21,7 +21,7 @@ class TaughtPath {
   };
 
   explicit TaughtPath(std::span<const route::Segment> segments);
-  // Between its beginning and its end.
+  // `along_m` is clamped to the path.
   [[nodiscard]] Pose At(double along_m) const;
   [[nodiscard]] double length_m() const { return poses_.back().along_m; }
 
@@ -29,16 +29,16 @@ class TaughtPath {
   std::vector<Pose> poses_;
 };
 
-// How far one path lies beside another, near by: the one is laid upon the other by what both do
-// around the place, so that neither's drift from further off counts.
+// Measures how far one path lies beside another. It aligns them by their motion around the place,
+// so that drift from further away does not count.
 class PathsAside {
  public:
-  // Where on the second a place on the first is, if it is on it.
+  // Returns where on the second path a place on the first is, if it is on it.
   using OnSecond = std::function<std::optional<double>(double along_m)>;
   PathsAside(TaughtPath first, TaughtPath second, OnSecond on_second)
       : first_(std::move(first)), second_(std::move(second)), on_second_(std::move(on_second)) {}
 
-  // To the left of the first, metres; nothing where both go on together for too short a way.
+  // Returns metres to the left of the first path, or nothing if both go on together too briefly.
   [[nodiscard]] std::optional<double> At(double along_m, double within_m) const;
 
  private:
