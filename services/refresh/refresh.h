@@ -11,19 +11,20 @@
 namespace trailcast::refresh {
 
 struct RefreshOptions {
-  // A route becomes no larger than that by what is added; one that is larger keeps its size.
+  // Additions do not make a route larger than this; a route that is larger keeps its size.
   double most_bytes_per_m = 4900.0;
-  int missed_to_drop = 3;       // visits in a row
-  double most_share = 0.25;     // of a segment's features dropped, and added, by one visit
-  std::size_t fewest_left = 8;  // features of a segment, whatever was missed
-  int most_added_views = 1;     // beside each of the scout's, which is never dropped
-  // What a visit says of features, or of key views, is not believed if it found a smaller share of
-  // all that it could judge, or judged fewer of them than that: it was elsewhere, or saw badly.
+  int missed_to_drop = 3;       // consecutive visits
+  double most_share = 0.25;     // share of a segment's features that one visit may drop, and add
+  std::size_t fewest_left = 8;  // a segment keeps so many features, whatever was missed
+  int most_added_views = 1;     // beside each of the scout's, which are never dropped
+  // A visit's findings on features, or on key views, are not believed if it found a smaller share
+  // of those that it judged, or judged a smaller share of all. Such a robot was somewhere else, or
+  // saw badly.
   double least_found_share = 0.3;
   double least_judged_share = 0.2;
 };
 
-// Of features, or of key views.
+// Counts of features, or of key views.
 struct RefreshCounts {
   int found = 0;
   int missed = 0;
@@ -31,7 +32,7 @@ struct RefreshCounts {
   int dropped = 0;
   int added = 0;
 
-  // Of those judged.
+  // The share found of those judged.
   [[nodiscard]] double found_share() const {
     return found + missed > 0 ? static_cast<double>(found) / (found + missed) : 0.0;
   }
@@ -44,11 +45,11 @@ struct Refreshed {
   RefreshCounts views;
 };
 
-// The route as the visit leaves it: features, and key views that followers had added, which were
-// missed for long are gone, some of those offered are there. All else (length, heading, turns, the
-// scout's key views, the features that remain, their order) is as it was, so that however often a
-// route is refreshed, its path is the scout's.
-// kUnavailable for a visit that is not to be believed; kInvalidArgument for one of another route.
+// Returns the route as the visit leaves it. Features, and key views that followers had added, are
+// dropped if they were missed for long, and some of the offered ones are added. Everything else
+// (length, heading, turns, the scout's key views, the remaining features and their order) stays, so
+// that a route's path remains the scout's however often it is refreshed. kUnavailable is a visit
+// that is not believed; kInvalidArgument is one of another route.
 [[nodiscard]] Result<Refreshed> Refresh(const std::vector<route::Segment>& route,
                                         const Visit& visit, const RefreshOptions& options = {});
 

@@ -8,18 +8,17 @@
 
 namespace trailcast::refresh {
 
-// A revision that refreshes another one (RouteInfo::refreshes) is tagged with this, so that it is
-// found.
+// The tag of a revision that refreshes another one (RouteInfo::refreshes), so that it can be found.
 inline constexpr std::string_view kTag = "refreshed";
 
-// What has changed, and what such a revision says of itself: whose visit to which revision made it,
-// too. For people.
+// Both return text for people: the changes, and the description of such a revision, which names the
+// visit and the visited revision.
 [[nodiscard]] std::string Describe(const Refreshed& refreshed);
 [[nodiscard]] std::string DescribeRefreshed(RevisionNumber visited, const AgentId& by,
                                             const Refreshed& refreshed);
 
-// Whether `segment` is `before` as one visit may leave it: as taught but for features and added key
-// views, of which no more have gone and come than a visit takes away and adds.
+// Says whether `segment` is `before` as one visit may leave it: as taught except for features and
+// added key views, of which no more come and go than one visit allows.
 [[nodiscard]] bool IsRefreshed(const route::Segment& segment, const route::Segment& before,
                                const RefreshOptions& options = {});
 

@@ -11,31 +11,31 @@ namespace trailcast::refresh {
 
 // What became of one of a segment's features while a follower drove along it.
 enum class Sought : std::uint8_t {
-  kUnjudged,  // it was not in view, or nothing near it was seen well enough to tell
+  kUnjudged,  // it was not in view, or nothing near it was seen well enough to judge
   kFound,
-  kMissed,  // where it should have been, other things were seen and it was not
+  kMissed,  // other things were seen where it should have been, and it was not
 };
 
-// How the place of a key view looked to a follower that recognised too little of it, in the scout's
-// pixels.
+// A follower's view of a place whose key view it hardly recognised, in the scout's pixels.
 struct OfferedView {
-  std::size_t beside = 0;  // position of the scout's in the segment
+  std::size_t beside = 0;  // position of the scout's view in the segment
   route::View features;
 };
 
-// What a follower that was sure of its place met with in one segment.
+// A follower's findings in one segment, while it was sure of its place.
 struct SegmentVisit {
   SegmentIndex index;
-  std::vector<Sought> features;  // one for each of the segment's, in their order; none: none judged
-  // What it saw besides, told in the scout's terms: patches at the scale of the scout's first image
-  // of the segment, knots in the scout's pixels. The most useful first.
+  std::vector<Sought> features;  // one for each of the segment's features, in order; empty if none
+                                 // was judged
+  // New features in the scout's terms, the most useful first: patches at the scale of the scout's
+  // first image of the segment, knots in the scout's pixels.
   std::vector<route::Feature> offered;
-  std::vector<Sought> views{};  // one for each of its key views, in their order; none: none judged
+  std::vector<Sought> views{};  // one for each of its key views, in order; empty if none was judged
   std::vector<OfferedView> offered_views{};
 };
 
-// One follower's way along a whole route; segments in rising order, those it was unsure in left
-// out.
+// One follower's drive along a whole route: its segments in rising order, without those in which it
+// was not sure.
 struct Visit {
   std::vector<SegmentVisit> segments;
 };

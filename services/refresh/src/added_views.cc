@@ -33,7 +33,7 @@ void RefreshViews(const SegmentVisit& visit, std::optional<std::size_t> most_byt
                   const RefreshOptions& options, route::Segment& segment, RefreshCounts& counts) {
   if (visit.views.empty()) return;
   const std::vector<KeyView> before = std::exchange(segment.key_views, {});
-  std::vector<std::pair<std::size_t, KeyView>> new_ones;  // and where they go
+  std::vector<std::pair<std::size_t, KeyView>> new_ones;  // and their positions
   for (std::size_t i = 0; i < before.size();) {
     const std::size_t own = i;
     int added = 0;
@@ -53,7 +53,7 @@ void RefreshViews(const SegmentVisit& visit, std::optional<std::size_t> most_byt
     new_ones.emplace_back(segment.key_views.size(),
                           KeyView{before[own].s, offered->features, std::uint8_t{0}});
   }
-  // The first ones, as many as may be.
+  // The first ones are taken, as many as are allowed.
   std::size_t inserted = 0;
   for (auto& [place, view] : new_ones) {
     if (segment.key_views.size() >= route::kMaxKeyViews) return;

@@ -9,9 +9,9 @@
 
 namespace trailcast::refresh {
 
-// The key views of `segment` as a visit leaves them: those of the scout as they are, and beside
-// them what followers added, as far as it is recognised now and then, or offered now. The segment
-// becomes no larger than `most_bytes` by what is added; nothing: whatever it weighs.
+// Updates the key views of `segment` after a visit. The scout's stay as they are. Those that
+// followers added stay as long as they are recognised now and then, and offered ones are added.
+// Additions do not make the segment larger than `most_bytes`, if that is given.
 void RefreshViews(const SegmentVisit& visit, std::optional<std::size_t> most_bytes,
                   const RefreshOptions& options, route::Segment& segment, RefreshCounts& counts);
 

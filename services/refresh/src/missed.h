@@ -7,7 +7,7 @@
 
 namespace trailcast::refresh {
 
-// How many of the last visits in a row have missed something, after one more.
+// Counts how many consecutive visits, up to this one, missed something.
 inline void NoteVisit(Sought sought, std::uint8_t& missed) {
   if (sought == Sought::kFound) missed = 0;
   if (sought == Sought::kMissed && missed < std::numeric_limits<std::uint8_t>::max()) ++missed;

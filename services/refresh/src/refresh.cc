@@ -14,7 +14,7 @@ namespace {
 using route::Feature;
 using route::Segment;
 
-// Whoever offers what no scout could have taught is not of this route's kind.
+// A feature that no scout could have taught is not of this kind of route.
 bool IsSound(const Feature& feature) {
   if (feature.track.size() < 2 || feature.track.size() > route::kMaxKnots) return false;
   float last_s = -1.0F;
@@ -37,7 +37,7 @@ void Count(std::size_t all, const std::vector<Sought>& sought, RefreshCounts& co
   }
 }
 
-// The longest missed first.
+// Drops those that were missed for longest first.
 int Drop(std::size_t most, const RefreshOptions& options, Segment& segment) {
   std::vector<Feature>& features = segment.features;
   int dropped = 0;
@@ -61,7 +61,7 @@ int Add(const std::vector<Feature>& offered, std::size_t most, std::size_t most_
     if (!IsSound(feature)) continue;
     segment.features.push_back(feature);
     segment.features.back().missed = 0;
-    segment.features.back().descriptor = {};  // key views have them
+    segment.features.back().descriptor = {};  // key views have descriptors
     if (route::Encode(segment).size() > most_bytes) {
       segment.features.pop_back();
       break;
@@ -93,7 +93,7 @@ Result<void> CheckFits(const std::vector<Segment>& route, const Visit& visit) {
   return {};
 }
 
-// `what`: of a route, as people call it.
+// `what` names the counted things for people.
 Result<void> CheckBelievable(const RefreshCounts& counts, const char* what,
                              const RefreshOptions& options) {
   if (counts.found_share() < options.least_found_share) {
@@ -147,7 +147,7 @@ Result<Refreshed> Refresh(const std::vector<Segment>& route, const Visit& visit,
     const bool by_features = refreshed.counts.found + refreshed.counts.missed > 0;
     return tl::unexpected(by_features ? features.error() : views.error());
   }
-  // What the whole route has left goes to its segments by their lengths: one of a sharp turn has
+  // The route's spare bytes are shared among its segments by length. A segment of a sharp turn has
   // more bytes a metre than others, and keeps them.
   const double spare_per_m =
       length_m > 0.0 ? std::max(0.0, options.most_bytes_per_m - bytes / length_m) : 0.0;

@@ -24,7 +24,7 @@ route::Segment WithoutWhatChanges(route::Segment segment) {
   return segment;
 }
 
-// No more key views have been added beside each of the scout's than may be.
+// Says whether no more key views were added beside each of the scout's than are allowed.
 bool AddsFew(const route::Segment& segment, const RefreshOptions& options) {
   int added = 0;
   for (const route::KeyView& view : segment.key_views) {
@@ -55,7 +55,7 @@ bool IsRefreshed(const route::Segment& segment, const route::Segment& before,
                  const RefreshOptions& options) {
   if (WithoutWhatChanges(segment) != WithoutWhatChanges(before)) return false;
   if (!AddsFew(segment, options)) return false;
-  // Those that stay keep their order.
+  // The features that stay keep their order.
   std::size_t stayed = 0;
   auto from = before.features.begin();
   for (const route::Feature& feature : segment.features) {
