@@ -8,11 +8,11 @@
 
 namespace trailcast::security {
 
-// What DDS cannot know: whether a message is its sender's to send. DDS vouches for `sender`, whose
-// partition it came in. The message must name that sender as its author; a status must tell the
-// sender's role; commands for robots and their answers may be passed on by a server; a scout
-// announces only what it taught itself, and no labels, which are operators'. kInvalidArgument with
-// what is wrong otherwise.
+// Checks that a message is its sender's to send, which DDS cannot know. DDS guarantees `sender`, in
+// whose partition the message came. The message must name the sender as its author, and a status
+// must tell the sender's role. A server may pass on commands for robots and their answers. A scout
+// may announce only what it taught itself, without labels, which are the operators'. The error is
+// kInvalidArgument and says what is wrong.
 [[nodiscard]] Result<void> CheckAuthor(const exchange::Message& message, const Member& sender,
                                        const std::string& name_key);
 

@@ -12,23 +12,24 @@
 
 namespace trailcast::security {
 
-// The fleet's authority: a folder that stays on one machine, whose key signs who is a member and
-// what it may do. Below it, members/NAME/ is what is copied to that member's machine (member_keys.h
-// reads it); issued/NAME.GENERATION.pem are the certificates ever given. Not meant to be worked on
-// by two processes at once.
+// The fleet's authority: a folder that stays on one machine and whose key signs who is a member and
+// what it may do. In it, members/NAME/ is to be copied to that member's machine (member_keys.h
+// reads it), and issued/NAME.GENERATION.pem are all certificates ever issued. Two processes must
+// not use it at once.
 class Authority {
  public:
-  // kConflict if the folder has an authority already; it is never replaced.
+  // Makes an authority. kConflict means that the folder has one already, which is never replaced.
   [[nodiscard]] static Result<Authority> Create(const std::filesystem::path& folder, Time now,
                                                 int days);
-  // kNotFound if there is none.
+  // kNotFound means that the folder has no authority.
   [[nodiscard]] static Result<Authority> Open(const std::filesystem::path& folder);
 
-  // A new member; its folder. kConflict if there is one of that name, revoked or not.
+  // Adds a member and returns its folder. kConflict means that one of that name exists, revoked or
+  // not.
   [[nodiscard]] Result<std::filesystem::path> Add(const std::string& name, Role role, Time now,
                                                   int days) const;
-  // New keys for a member, the next generation, perhaps in another role: then the earlier ones are
-  // revoked. Also takes back who was revoked.
+  // Issues a member's keys of the next generation. With another role, the earlier ones are revoked.
+  // This also reinstates a revoked member.
   [[nodiscard]] Result<std::filesystem::path> Renew(const std::string& name,
                                                     std::optional<Role> role, Time now,
                                                     int days) const;
@@ -38,14 +39,14 @@ class Authority {
   enum class State : std::uint8_t { kValid, kExpired, kRevoked };
   struct Row {
     std::string name;
-    Member member;  // of the latest generation
+    Member member;  // the latest generation
     Time expires;
     State state = State::kValid;
   };
   [[nodiscard]] Result<std::vector<Row>> List(Time now) const;
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-  // The list of revoked certificates, which goes to every member's machine.
+  // Returns the file with the list of revoked certificates, which goes to every member's machine.
   [[nodiscard]] std::filesystem::path RevocationFile() const;
 
  private:
@@ -60,19 +61,19 @@ class Authority {
     CertificateFacts facts;
     Member member;
   };
-  // Of one member, by generation; empty if there is no such member.
+  // Returns one member's certificates by generation; they are empty if there is no such member.
   [[nodiscard]] Result<std::vector<Issued>> IssuedTo(const std::string& name) const;
   [[nodiscard]] Result<std::vector<std::string>> Names() const;
   [[nodiscard]] Result<std::filesystem::path> Give(const std::string& name, const Member& member,
                                                    Time now, int days) const;
   [[nodiscard]] Result<void> RevokeSerials(const std::vector<Issued>& issued, Time now) const;
-  // A member for the fleet's lists; kNotFound names those there are.
+  // Does the same for a member that must exist; kNotFound names the existing ones.
   [[nodiscard]] Result<std::vector<Issued>> Known(const std::string& name) const;
 
   std::filesystem::path folder_;
   Identity identity_;
   std::string name_key_;
-  Time until_;  // the authority's own end
+  Time until_;  // when the authority itself expires
 };
 
 }  // namespace trailcast::security

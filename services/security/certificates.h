@@ -7,18 +7,18 @@
 
 namespace trailcast::security {
 
-// Keys (prime256v1) and certificates, as PEM text. Errors: kInvalidArgument for
-// text that is none, kInternal for what OpenSSL refuses.
+// A key (prime256v1) and its certificate, as PEM text. Errors: kInvalidArgument for text that is
+// not PEM, kInternal if OpenSSL refuses.
 
 struct Identity {
   std::string certificate;
   std::string key;
 };
 
-// An authority that signs itself.
+// Makes an authority that signs itself.
 [[nodiscard]] Result<Identity> MakeAuthority(const std::string& common_name,
                                              const Validity& validity);
-// A member's new key, and its certificate by the authority.
+// Makes a member's new key, and its certificate signed by the authority.
 [[nodiscard]] Result<Identity> Issue(const Identity& authority, const std::string& common_name,
                                      const Validity& validity);
 
@@ -29,9 +29,9 @@ struct CertificateFacts {
 };
 [[nodiscard]] Result<CertificateFacts> ReadCertificate(const std::string& certificate);
 
-// True if `authority` signed the certificate; its dates are not looked at.
+// Says whether `authority` signed the certificate. Dates are not checked.
 [[nodiscard]] Result<bool> IsSignedBy(const std::string& certificate, const std::string& authority);
-// True if the key is the one in the certificate.
+// Says whether the key is the certificate's.
 [[nodiscard]] Result<bool> KeyFits(const Identity& identity);
 
 }  // namespace trailcast::security

@@ -15,31 +15,31 @@ struct Validity {
   Time until;
 };
 
-// "2026-11-22T16:00:00Z"
+// Returns "2026-11-22T16:00:00Z".
 [[nodiscard]] std::string ToText(Time time);
 
-// The two documents of the DDS Security specification that the fleet's authority signs.
+// GovernanceXml and PermissionsXml are the two documents of the DDS Security specification that the
+// authority signs.
 
-// How all members protect what they say: nobody takes part who is not known, what is said is
-// encrypted, and every topic is open only to whom its permissions let in.
+// Returns how all members protect their communication: unknown participants are kept out,
+// everything is encrypted, and a topic is open only to members whose permissions allow it.
 [[nodiscard]] std::string GovernanceXml();
 
-// On which servers give all members the fleet's list of revoked certificates (revocation_list.h).
-// Not one of the exchange's: programs have nothing to do with it.
+// The topic on which servers give all members the list of revoked certificates (revocation_list.h).
+// It does not belong to the exchange, because programs do not use it.
 inline constexpr const char* kRevocationsTopic = "trailcast/revocations";
 
-// What one member may write, in its own partition and those below, and read (RightsOf its role),
-// and of the revocations topic; nothing else.
+// Returns what one member may do: write, in its own partition and those below, and read what
+// RightsOf its role has, and the revocations topic. Nothing else is allowed.
 [[nodiscard]] std::string PermissionsXml(const Member& member, const Validity& validity);
 
-// True of permissions that allow the partitions below the member's own, as those from before there
-// were any do not.
+// Says whether permissions allow the partitions below the member's own. Older ones do not.
 [[nodiscard]] bool AllowsScopes(const std::string& permissions_xml, const Member& member);
 
-// True of permissions that name the topic, as those from before there was such a one do not.
+// Says whether permissions name the topic. Those from before the topic existed do not.
 [[nodiscard]] bool AllowsTopic(const std::string& permissions_xml, const std::string& topic);
 
-// The value of the only element of that name; nothing if there is none, or several.
+// Returns the value of the only element of that name, or nothing if there is none or several.
 [[nodiscard]] std::optional<std::string> ElementOf(const std::string& xml, const std::string& name);
 
 }  // namespace trailcast::security

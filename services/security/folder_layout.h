@@ -2,7 +2,8 @@
 
 namespace trailcast::security {
 
-// Files of a member's folder. All but identity.key and member.toml may be shown to anybody.
+// These are the files of a member's folder. All but identity.key and member.toml may be shown to
+// anybody.
 inline constexpr const char* kAuthorityFile = "authority.pem";    // the authority's certificate
 inline constexpr const char* kGovernanceFile = "governance.p7s";  // signed
 inline constexpr const char* kRevokedFile = "revoked.pem";        // list of revoked certificates
@@ -11,7 +12,7 @@ inline constexpr const char* kIdentityKeyFile = "identity.key";
 inline constexpr const char* kPermissionsFile = "permissions.p7s";  // signed
 inline constexpr const char* kMemberFile = "member.toml";  // name, and the fleet's name key
 
-// The authority has the first three, too, and:
+// The authority has the first three as well, and these:
 inline constexpr const char* kAuthorityKeyFile = "authority.key";
 inline constexpr const char* kNameKeyFile = "name.key";
 inline constexpr const char* kIssuedFolder = "issued";

@@ -9,31 +9,33 @@
 
 namespace trailcast::security {
 
-// A member of the fleet as the others know it. Certificates and permissions travel in the open
-// while members greet each other, so they bear no names: `id` stands for the name, and only who
-// has the fleet's name key can tell which (MemberIdOf).
+// A member of the fleet as the others know it. Certificates and permissions travel unencrypted
+// while members authenticate, so they have no names: `id` stands for the name, and only the fleet's
+// name key tells which (MemberIdOf).
 struct Member {
   Role role = Role::kObserver;
   std::string id;                // 16 hexadecimal digits
-  std::uint32_t generation = 1;  // one more with each renewal; keys of different ones do not mix
+  std::uint32_t generation = 1;  // rises with each renewal; keys of different generations do not
+                                 // mix
   bool operator==(const Member&) const = default;
 };
 
-// The common name in a member's certificate, "scout.4f2a9c0d11223344.3", and back.
+// These convert to and from the common name in a member's certificate, "scout.4f2a9c0d11223344.3".
 [[nodiscard]] std::string CommonNameOf(const Member& member);
 [[nodiscard]] std::optional<Member> ParseCommonName(std::string_view text);
-// As Cyclone compares it with the permissions: "CN=scout.4f2a9c0d11223344.3".
+// Returns the subject as Cyclone compares it with the permissions: "CN=scout.4f2a9c0d11223344.3".
 [[nodiscard]] std::string SubjectOf(const Member& member);
 
-// The DDS partition in which the member writes: "scout/4f2a9c0d11223344"; and in those below it,
-// "scout/4f2a9c0d11223344/1f". No one else may, so who reads a sample knows whose it is.
+// Returns the DDS partition in which the member writes, "scout/4f2a9c0d11223344". It may also write
+// in those below, "scout/4f2a9c0d11223344/1f". Nobody else may, so the partition tells a reader who
+// wrote a sample.
 [[nodiscard]] std::string PartitionOf(const Member& member);
-// The members' own partitions without those below, to those who read.
+// This matches, for readers, the members' own partitions without those below.
 inline constexpr const char* kPartitionsWithoutScope = "*/????????????????";
-// Whose partition it is, or is below; without generation.
+// Returns whose partition it is, or is below, without the generation.
 [[nodiscard]] std::optional<Member> ParsePartition(std::string_view text);
 
-// `name_key`: the fleet's, which every member has and nobody else.
+// `name_key` is the fleet's, which only members have.
 [[nodiscard]] std::string MemberIdOf(std::string_view name_key, std::string_view name);
 
 }  // namespace trailcast::security

@@ -10,20 +10,20 @@
 
 namespace trailcast::security {
 
-// What a member of the fleet may do. Written into its certificate, and into the permissions that
-// the fleet's authority signs for it.
+// What a member of the fleet may do. It is in the member's certificate, and in the permissions that
+// the fleet's authority signs.
 enum class Role : std::uint8_t { kScout, kFollower, kServer, kOperator, kObserver };
 
 [[nodiscard]] std::span<const Role> AllRoles();
 [[nodiscard]] const char* NameOf(Role role);  // "scout"
 [[nodiscard]] std::optional<Role> FindRole(std::string_view name);
 
-// The topics that the role may write and read; DDS lets it open no others. A scout may what a
-// follower may. An operator changes routes' labels, and brings routes in and out. An observer asks
-// the catalog.
+// Returns the topics that the role may write and read; DDS opens no others for it. A scout may do
+// what a follower may. An operator changes routes' labels, and imports and exports routes. An
+// observer asks the catalog.
 [[nodiscard]] exchange::TopicUse RightsOf(Role role);
 
-// Of `use`, what the role may not: "write trailcast/routes"; empty if it may all of it.
+// Returns what in `use` exceeds the role, as "write trailcast/routes", or an empty text.
 [[nodiscard]] std::string BeyondRights(Role role, const exchange::TopicUse& use);
 
 }  // namespace trailcast::security

@@ -13,13 +13,13 @@
 
 namespace trailcast::security {
 
-// Numbers and dates as certificates and revocation lists have them.
+// These convert the numbers and dates of certificates and revocation lists.
 using NumberPtr = std::unique_ptr<BIGNUM, Freer<BN_free>>;
 using IntegerPtr = std::unique_ptr<ASN1_INTEGER, Freer<ASN1_INTEGER_free>>;
 using TimePtr = std::unique_ptr<ASN1_TIME, Freer<ASN1_TIME_free>>;
 
 [[nodiscard]] std::string Hexadecimal(const ASN1_INTEGER* number);
-// Null if the text is no hexadecimal number.
+// Returns null if the text is no hexadecimal number.
 [[nodiscard]] IntegerPtr IntegerFrom(const std::string& hexadecimal);
 
 [[nodiscard]] std::time_t Seconds(Time time);

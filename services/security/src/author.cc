@@ -7,7 +7,7 @@ namespace {
 
 using exchange::AgentRole;
 
-// Who a message says it is from.
+// Returns whom a message names as its author.
 struct AuthorIn {
   AgentId operator()(const exchange::RouteAnnouncement& m) { return m.holder; }
   AgentId operator()(const exchange::SegmentBatch& m) { return m.sender; }
@@ -38,7 +38,7 @@ struct AuthorIn {
   AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
 };
 
-// A scout may follow, too.
+// A scout may follow as well.
 bool MayCallItself(Role role, AgentRole said) {
   switch (said) {
     case AgentRole::kServer:
@@ -65,7 +65,7 @@ Result<void> CheckTaught(const exchange::RouteAnnouncement& announcement) {
   return {};
 }
 
-// Servers pass on what operators tell robots, and what these answer.
+// Servers pass on operators' commands to robots, and the robots' answers.
 bool IsRelayed(const exchange::Message& message) {
   return std::visit(
       [](const auto& m) {

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Robots' clocks are not always right: what is issued holds from a day ago.
+// Robots' clocks are not always right, so certificates are valid from a day ago.
 constexpr std::chrono::hours kClockMargin{24};
 
 Time After(Time now, int days) { return now + std::chrono::hours(24) * days; }
@@ -34,7 +34,7 @@ Result<std::string> MakeNameKey() {
   return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
-// Writes several files; the first that fails ends it.
+// Writes several files, until one fails.
 struct File {
   const char* name;
   std::string text;
@@ -161,7 +161,7 @@ Result<std::vector<Authority::Issued>> Authority::Known(const std::string& name)
 
 Result<fs::path> Authority::Give(const std::string& name, const Member& member, Time now,
                                  int days) const {
-  // Nothing outlives the authority, who alone makes it believed.
+  // Certificates do not outlive the authority, without which nobody would accept them.
   const Validity validity{now - kClockMargin, std::min(After(now, days), until_)};
   if (validity.until <= now && days > 0) {
     return Fail(ErrorCode::kUnavailable,
@@ -177,7 +177,8 @@ Result<fs::path> Authority::Give(const std::string& name, const Member& member, 
   if (!governance) return tl::unexpected(governance.error());
   const auto revoked = ReadSmallFile(RevocationFile());
   if (!revoked) return tl::unexpected(revoked.error());
-  // What was given is on record before anybody can have it: it could not be revoked otherwise.
+  // A certificate is recorded before anybody can have it, because it could not be revoked
+  // otherwise.
   const std::string record = fmt::format("{}.{}.pem", name, member.generation);
   if (auto written =
           ReplaceFile(folder_ / kIssuedFolder / record, identity->certificate, kForEverybody);
@@ -254,7 +255,7 @@ Result<void> Authority::RevokeSerials(const std::vector<Issued>& issued, Time no
   if (!names) return tl::unexpected(names.error());
   for (const std::string& name : *names) {
     const fs::path folder = folder_ / kMembersFolder / name;
-    if (!fs::exists(folder)) continue;  // moved to where it is used
+    if (!fs::exists(folder)) continue;  // it was moved to the member's machine
     if (auto written = ReplaceFile(folder / kRevokedFile, *list, kForEverybody); !written) {
       return written;
     }

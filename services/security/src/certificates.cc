@@ -29,7 +29,7 @@ Result<std::string> CertificateText(X509* certificate) {
   return TextIn(out.get());
 }
 
-// 127 random bits.
+// The serial number has 127 random bits.
 bool SetSerial(X509* certificate) {
   const NumberPtr number(BN_new());
   return number && BN_rand(number.get(), 127, BN_RAND_TOP_ANY, BN_RAND_BOTTOM_ANY) == 1 &&
@@ -52,7 +52,7 @@ bool AddExtension(X509* certificate, int nid, const char* value) {
   return extension && X509_add_ext(certificate, extension.get(), -1) == 1;
 }
 
-// Signed by `issuer` with its key; without one by itself.
+// Makes a certificate signed by `issuer` with its key or, without one, by itself.
 Result<Identity> Make(const std::string& common_name, const Validity& validity, X509* issuer,
                       EVP_PKEY* issuer_key) {
   const KeyPtr key(EVP_EC_gen("prime256v1"));

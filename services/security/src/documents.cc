@@ -9,7 +9,7 @@
 namespace trailcast::security {
 namespace {
 
-// Domains are chosen when programs are started; the fleet is one in all of them.
+// A program chooses its domain when it starts, and the fleet is the same in all of them.
 constexpr const char* kDomains =
     "<domains><id_range><min>0</min><max>230</max></id_range></domains>";
 constexpr const char* kHead = R"(<?xml version="1.0" encoding="UTF-8"?>
@@ -35,9 +35,9 @@ std::string ToText(Time time) {
                      fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
 }
 
-// Metadata encrypted: a whole submessage at a time, so that not even the key of a sample is seen;
-// the data inside it need not be encrypted once more. RTPS messages as such are not: members who
-// are only just getting to know each other could not read them.
+// Metadata encryption covers a whole submessage, so that not even a sample's key shows; its data
+// need no further encryption. Whole RTPS messages are not encrypted, because members that have not
+// authenticated each other yet could not read them.
 std::string GovernanceXml() {
   return fmt::format(kHead, "governance") + fmt::format(R"(<domain_access_rules>
   <domain_rule>

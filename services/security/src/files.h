@@ -14,7 +14,7 @@ inline constexpr mode_t kForEverybody = 0644;  // certificates, signed documents
 
 // Errors name the file: kNotFound, kUnavailable.
 [[nodiscard]] Result<std::string> ReadSmallFile(const std::filesystem::path& file);
-// With parents; only its owner may enter it.
+// Makes a folder, with its parents, that only its owner may enter.
 [[nodiscard]] Result<void> MakePrivateFolder(const std::filesystem::path& folder);
 
 }  // namespace trailcast::security

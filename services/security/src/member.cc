@@ -21,7 +21,7 @@ bool IsId(std::string_view text) {
          });
 }
 
-// "role" and "id" at the beginning of `text`, with `between` between them; `text` keeps the rest.
+// Takes "role" and "id", with `between` between them, from the beginning of `text`.
 std::optional<Member> TakeRoleAndId(std::string_view& text, char between) {
   const std::size_t end = text.find(between);
   if (end == std::string_view::npos) return std::nullopt;
@@ -61,7 +61,7 @@ std::optional<Member> ParsePartition(std::string_view text) {
 std::string MemberIdOf(std::string_view name_key, std::string_view name) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int length = 0;
-  // Refuses only when it cannot allocate.
+  // HMAC fails only if it cannot allocate memory.
   if (HMAC(EVP_sha256(), name_key.data(), static_cast<int>(name_key.size()),
            reinterpret_cast<const unsigned char*>(name.data()), name.size(), digest.data(),
            &length) == nullptr) {

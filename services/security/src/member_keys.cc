@@ -24,7 +24,7 @@ constexpr std::array kFiles{kAuthorityFile,   kGovernanceFile,  kRevokedFile, kI
 constexpr const char* kCopyAgain =
     "copy the folder that 'trailcast keys add' (or renew) wrote for this member again, whole";
 
-// The value of `key = "value"`; empty if there is none.
+// Returns the value of `key = "value"`, or an empty text.
 std::string ValueOf(const std::string& text, const std::string& key) {
   const std::string open = key + " = \"";
   std::size_t at = text.starts_with(open) ? 0 : text.find("\n" + open);
@@ -117,7 +117,7 @@ Result<void> CheckDates(const MemberKeys& keys, const CertificateFacts& facts, T
   return {};
 }
 
-// Reads the list, too.
+// Also stores the list in `keys`.
 Result<void> CheckRevoked(MemberKeys& keys, const Contents& contents, const std::string& serial) {
   auto list = ReadRevocationList(contents.revoked, contents.authority);
   if (!list) return Wrong(keys.folder / kRevokedFile, list.error().message);
@@ -130,7 +130,7 @@ Result<void> CheckRevoked(MemberKeys& keys, const Contents& contents, const std:
               keys.folder.string(), keys.name);
 }
 
-// Reads the permissions, too.
+// Also stores what the permissions allow in `keys`.
 Result<void> CheckDocuments(MemberKeys& keys, const Contents& contents) {
   const auto governance = OpenSigned(contents.governance, contents.authority);
   if (!governance) return Wrong(keys.folder / kGovernanceFile, governance.error().message);
@@ -194,7 +194,8 @@ Result<MemberKeys> LoadMemberKeys(const fs::path& folder, Time now) {
 std::string KeysVersion(const fs::path& folder) {
   std::string version;
   for (const char* file : kFiles) {
-    // A file that ReplaceFile wrote is another one; times alone stand still for some ms.
+    // ReplaceFile makes a new file, which has another inode. The times alone can stay the same for
+    // some ms.
     struct stat about {};
     const bool is_there = stat((folder / file).c_str(), &about) == 0;
     version += is_there ? fmt::format("{}.{}.{}.{}/", about.st_ino, about.st_size,

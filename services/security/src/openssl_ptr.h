@@ -14,7 +14,7 @@
 
 namespace trailcast::security {
 
-// OpenSSL's objects as owners.
+// These own OpenSSL's objects.
 template <auto Free>
 struct Freer {
   template <typename T>
@@ -29,7 +29,7 @@ using RevocationsPtr = std::unique_ptr<X509_CRL, Freer<X509_CRL_free>>;
 using TrustPtr = std::unique_ptr<X509_STORE, Freer<X509_STORE_free>>;
 using Pkcs7Ptr = std::unique_ptr<PKCS7, Freer<PKCS7_free>>;
 
-// kInternal, with OpenSSL's reason, of which it is then cleared.
+// Returns kInternal with OpenSSL's reason, and clears OpenSSL's errors.
 [[nodiscard]] inline tl::unexpected<Error> OpenSslFailed(const char* doing) {
   const unsigned long code = ERR_peek_last_error();
   const char* reason = code == 0 ? nullptr : ERR_reason_error_string(code);

@@ -7,8 +7,9 @@
 
 namespace trailcast::security {
 
-// The first certificate, private key, or revocation list in PEM text. kInvalidArgument when there
-// is none; what is under a password counts as none, and nobody is asked for it.
+// These return the first certificate, private key, or revocation list in PEM text. kInvalidArgument
+// means that there is none. An object under a password counts as none; nobody is asked for the
+// password.
 [[nodiscard]] Result<CertificatePtr> ParseCertificate(const std::string& text);
 [[nodiscard]] Result<KeyPtr> ParseKey(const std::string& text);
 [[nodiscard]] Result<RevocationsPtr> ParseRevocations(const std::string& text);

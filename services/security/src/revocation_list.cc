@@ -25,7 +25,7 @@ bool AddRevoked(X509_CRL* list, const std::string& serial, ASN1_TIME* since) {
       X509_CRL_add0_revoked(list, revoked.get()) != 1) {
     return false;
   }
-  (void)revoked.release();  // the list's now
+  (void)revoked.release();  // the list owns it now
   return true;
 }
 
@@ -35,7 +35,7 @@ bool SetNumber(X509_CRL* list, std::uint64_t number) {
          X509_CRL_add1_ext_i2d(list, NID_crl_number, integer.get(), 0, 0) == 1;
 }
 
-// 0 if it has none.
+// Returns 0 if it has no number.
 Result<std::uint64_t> NumberOf(const X509_CRL* list) {
   int found = 0;
   const IntegerPtr integer(
@@ -52,7 +52,7 @@ Result<std::uint64_t> NumberOf(const X509_CRL* list) {
 std::vector<std::string> SerialsIn(X509_CRL* list) {
   std::vector<std::string> serials;
   const STACK_OF(X509_REVOKED)* revoked = X509_CRL_get_REVOKED(list);
-  const int count = std::max(0, sk_X509_REVOKED_num(revoked));  // -1: there is none
+  const int count = std::max(0, sk_X509_REVOKED_num(revoked));  // -1 means that there is none
   serials.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     serials.push_back(
@@ -163,7 +163,7 @@ Result<RevocationList> CheckOffered(const std::string& text, const std::string& 
 }
 
 Result<void> KeepRevocationList(const std::filesystem::path& folder, const RevocationList& list) {
-  // Several programs may run with one folder.
+  // Several programs may use one folder.
   const auto there = RevocationListIn(folder);
   if (there && !IsNewer(list, *there)) return {};
   return ReplaceFile(folder / kRevokedFile, list.text, kForEverybody);

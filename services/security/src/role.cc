@@ -21,7 +21,7 @@ void Add(std::vector<Topic>& topics, const std::vector<Topic>& more) {
   }
 }
 
-// Rights, for which it does not matter how often something is written or how well it is read.
+// Merges rights, for which the number of writers and the quality of reading do not matter.
 TopicUse Together(TopicUse use, const TopicUse& more) {
   Add(use.write, more.write);
   Add(use.write, more.write_rarely);
@@ -31,8 +31,8 @@ TopicUse Together(TopicUse use, const TopicUse& more) {
   return use;
 }
 
-// Everybody sees who is there; robots and servers say so themselves, and servers of all others. Who
-// is asked whom it hears tells.
+// Everybody may see which agents exist. Robots and servers announce themselves, and servers
+// announce all others. Each answers when asked whom it hears.
 TopicUse SeesAgents() {
   return {.write = {Topic::kReachReports},
           .read = {Topic::kAgents, Topic::kFleet, Topic::kReachRequests}};
@@ -92,7 +92,7 @@ TopicUse RightsOf(Role role) {
       use = Together(std::move(use), exchange::NetworkTopics());
       use = Together(std::move(use), exchange::JoinerTopics());
       use = Together(std::move(use), exchange::ReachTopics());
-      std::erase(use.write, Topic::kAgents);  // operators are nobody's agent
+      std::erase(use.write, Topic::kAgents);  // operators are not agents
       return use;
     }
     case Role::kObserver:

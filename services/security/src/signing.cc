@@ -34,7 +34,7 @@ Result<std::string> OpenSigned(const std::string& signed_text, const std::string
     return Fail(ErrorCode::kCorrupt, "is no signed document");
   }
   const TrustPtr trust(X509_STORE_new());
-  // Dates are looked at where they count: in the member's own certificate.
+  // Dates are checked where they matter, in the member's own certificate.
   if (!trust || X509_STORE_add_cert(trust.get(), certificate->get()) != 1 ||
       X509_STORE_set_flags(trust.get(), X509_V_FLAG_NO_CHECK_TIME) != 1) {
     return OpenSslFailed("trusting the authority");

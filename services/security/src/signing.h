@@ -7,11 +7,12 @@
 
 namespace trailcast::security {
 
-// The text signed as S/MIME: readable, the signature behind it, as `openssl smime -sign -text`
-// makes it and DDS Security expects of governance and permissions.
+// Signs the text as S/MIME: it stays readable and the signature follows it, as `openssl smime -sign
+// -text` does and DDS Security requires for governance and permissions.
 [[nodiscard]] Result<std::string> Sign(const std::string& text, const Identity& authority);
 
-// The text that was signed. kCorrupt if not by `authority`, a certificate, or changed since.
+// Returns the signed text. kCorrupt means that `authority`, a certificate, did not sign it, or that
+// it was changed.
 [[nodiscard]] Result<std::string> OpenSigned(const std::string& signed_text,
                                              const std::string& authority);
 
