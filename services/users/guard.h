@@ -21,18 +21,18 @@
 namespace trailcast::users {
 
 struct Who {
-  std::string name{};  // empty: nobody was asked
+  std::string name{};  // empty if no name was required
   Role role = Role::kLook;
 };
 
-// Why nobody was let in.
+// The reason for which a log-in was refused.
 struct Turned {
   enum class Why { kWrong, kTooOften, kBusy } why = Why::kWrong;
   std::chrono::milliseconds wait{0};  // for kTooOften
 };
 
-// Lets users in and knows them again. Its methods may be called from any thread; LogIn hashes one
-// password at a time, on a thread of the lowest priority, and nothing else waits for that.
+// Logs users in and recognises them afterwards. Any thread may call it. LogIn hashes one password
+// at a time, on a thread of the lowest priority, and nothing else waits for that.
 class Guard {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -41,10 +41,10 @@ class Guard {
     std::function<Time()> clock = [] { return std::chrono::steady_clock::now(); };
     std::function<bool(const std::string& password, const std::string& hash)> matches = Matches;
   };
-  static constexpr int kMostWaiting = 6;  // for their password to be hashed
+  static constexpr int kMostWaiting = 6;  // users who wait for their password to be hashed
 
-  // kNotFound, kCorrupt: as LoadUsers; also when there is none in it. `complain`: of a file that
-  // cannot be read later.
+  // Errors: kNotFound and kCorrupt, as LoadUsers has them, also if the file has no users.
+  // `complain` is called if the file cannot be read later.
   [[nodiscard]] static Result<std::unique_ptr<Guard>> Open(const std::filesystem::path& file,
                                                            Complain complain, Parts parts);
   [[nodiscard]] static Result<std::unique_ptr<Guard>> Open(const std::filesystem::path& file,
@@ -52,13 +52,13 @@ class Guard {
     return Open(file, std::move(complain), Parts{});
   }
 
-  // A session's token. `address`: where the user is, an IPv6 one's network alone.
+  // Returns a session's token. `address` is the user's; of an IPv6 address it is the network.
   [[nodiscard]] std::variant<std::string, Turned> LogIn(const std::string& name,
                                                         const std::string& password,
                                                         const std::string& address);
   void LogOut(const std::string& session);
   [[nodiscard]] std::optional<Who> WhoIn(const std::string& session);
-  // Of a program.
+  // Returns the user of a program's token.
   [[nodiscard]] std::optional<Who> WhoseToken(const std::string& token);
 
  private:
@@ -68,7 +68,7 @@ class Guard {
 
   Complain complain_;
   Parts parts_;
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards everything below
   WatchedUsers users_;
   Sessions sessions_;
   Throttle of_address_;

@@ -8,29 +8,30 @@
 
 namespace trailcast::users {
 
-// Who is logged in, known by a token that only their browser has. No clock of its own; not for
-// several threads at once.
+// The users who are logged in, each known by a token that only their browser has. It has no clock
+// of its own and is not thread-safe.
 class Sessions {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   struct Limits {
-    std::chrono::seconds idle{30 * 60};       // after which nobody is there any more
-    std::chrono::seconds longest{12 * 3600};  // however busy
+    std::chrono::seconds idle{30 * 60};       // without use
+    std::chrono::seconds longest{12 * 3600};  // even in use
     std::size_t most = 1000;
     std::size_t of_one_user = 20;
   };
   struct Session {
     std::string user;
-    std::string stamp;  // of what let the user in: another password ends it
+    std::string stamp;  // of the credentials that let the user in; a new password ends the session
   };
 
   Sessions() : Sessions(Limits{}) {}
   explicit Sessions(const Limits& limits) : limits_(limits) {}
 
-  // Its token. Of too many, the user's own or all, the one goes that was not used for longest.
+  // Opens a session and returns its token. If the user or all users have too many, the one that was
+  // unused for longest is closed.
   [[nodiscard]] std::string Open(Session session, Time now);
-  // Whose token it is; now it was used.
+  // Returns the token's session, and notes that it was used now.
   [[nodiscard]] std::optional<Session> Use(const std::string& token, Time now);
   void Close(const std::string& token);
   [[nodiscard]] std::size_t size() const { return open_.size(); }

@@ -8,24 +8,24 @@
 
 namespace trailcast::users {
 
-// Has those wait who were wrong, twice as long each time. Of a fixed size, whatever keys strangers
-// make up: a key shares its place with one in kPlaces others, and who does not know `secret_`
-// cannot choose with which. No clock of its own; not for several threads at once.
+// Makes those who failed wait, twice as long each time. Its size is fixed, whatever keys strangers
+// make up: a key shares its slot with others, one in kPlaces, and only a holder of `secret_` could
+// choose with which. It has no clock of its own and is not thread-safe.
 class Throttle {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::size_t kPlaces = 4096;
 
   struct Pace {
-    int free = 3;                               // so many are forgiven
-    std::chrono::milliseconds first{1000};      // then so long,
-    std::chrono::milliseconds longest{15'000};  // and at most
+    int free = 3;                               // failures without a wait
+    std::chrono::milliseconds first{1000};      // the first wait
+    std::chrono::milliseconds longest{15'000};  // the longest wait
     std::chrono::milliseconds forgets{3'600'000};
   };
 
   explicit Throttle(const Pace& pace);
 
-  // How long it has to wait yet; zero: it may try.
+  // Returns how long a key still has to wait; zero means that it may try.
   [[nodiscard]] std::chrono::milliseconds Wait(std::string_view key, Time now) const;
   void Fail(std::string_view key, Time now);
   void Forgive(std::string_view key);

@@ -10,7 +10,7 @@
 
 namespace trailcast::users {
 
-// Each may what those before it may.
+// Each role includes those before it.
 enum class Role : std::uint8_t { kLook, kOperate, kAdminister };
 
 [[nodiscard]] const char* NameOf(Role role);  // "look"
@@ -19,8 +19,8 @@ enum class Role : std::uint8_t { kLook, kOperate, kAdminister };
 
 struct User {
   Role role = Role::kLook;
-  std::string password{};  // as HashPassword makes it; empty: none, no log-in
-  std::string token{};     // as DigestOf makes it; empty: none
+  std::string password{};  // from HashPassword; empty means no log-in
+  std::string token{};     // from DigestOf; empty means none
   bool operator==(const User&) const = default;
 };
 
@@ -30,10 +30,10 @@ using Users = std::map<std::string, User>;
 inline constexpr std::size_t kMostUsers = 1000;
 inline constexpr std::size_t kLongestName = 32;
 
-// Names of the fleet's kind, and no longer than kLongestName.
+// Says whether a name is one of the fleet's kind and not longer than kLongestName.
 [[nodiscard]] bool IsUserName(const std::string& name);
 
-// A line a user: "anna operate scrypt:.. -". kCorrupt says which line is wrong.
+// The text has a line for each user: "anna operate scrypt:.. -". kCorrupt says which line is wrong.
 [[nodiscard]] Result<Users> ParseUsers(std::string_view text);
 [[nodiscard]] std::string TextOf(const Users& users);
 

@@ -11,16 +11,17 @@
 
 namespace trailcast::users {
 
-// kNotFound: there is no such file; kCorrupt: it is none of users.
+// Errors: kNotFound if there is no such file, kCorrupt if it has no users' lines.
 [[nodiscard]] Result<Users> LoadUsers(const std::filesystem::path& file);
 
-// Changes the file, or makes it, for its owner alone, which, of root's, is the folder's. Two who
-// change it at the same time do so one after the other; nothing is written where `change` fails.
+// Changes the file, or makes it. Only its owner may read it; if root made it, it belongs to the
+// folder's owner. Concurrent changes happen one after the other. Nothing is written if `change`
+// fails.
 [[nodiscard]] Result<void> ChangeUsers(const std::filesystem::path& file,
                                        const std::function<Result<void>(Users&)>& change);
 
-// The file's users, also once it has changed. One that cannot be read any more changes nothing:
-// who has to stop a robot is not to be locked out by a slip of the pen.
+// The users of a file, which is read again when it changes. A file that cannot be read any more
+// changes nothing, because a slip of the pen must not lock out somebody who has to stop a robot.
 class WatchedUsers {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -28,7 +29,7 @@ class WatchedUsers {
 
   WatchedUsers(std::filesystem::path file, Users users);
 
-  // What is wrong with the file is told to `complain`, once.
+  // `complain` is called once with what is wrong with the file.
   [[nodiscard]] const Users& At(Time now, const std::function<void(const Error&)>& complain);
 
  private:

@@ -15,8 +15,8 @@ using std::chrono::milliseconds;
 constexpr Throttle::Pace kAddressPace{.free = 5, .longest = milliseconds(15 * 60 * 1000)};
 constexpr Throttle::Pace kNamePace{.free = 5};
 
-// On a thread of its own: a robot's stop is not to wait for a stranger's password. Nothing: there
-// was no thread, or no memory, to look at it.
+// Works on a thread of its own, because a robot's stop must not wait for a stranger's password. It
+// returns nothing if there was no thread or no memory for it.
 std::optional<bool> InIdleTime(const std::function<bool()>& matches) {
   try {
     return std::async(std::launch::async,
@@ -59,7 +59,7 @@ std::variant<std::string, Turned> Guard::LogIn(const std::string& name, const st
   ++waiting_;
   hashed_.wait(lock, [this] { return !hashes_; });
   --waiting_;
-  // Those who came at the same time may have been wrong meanwhile.
+  // Others who came at the same time may have failed meanwhile.
   if (const auto turned = MustWait(name, address)) {
     hashed_.notify_one();
     return *turned;

@@ -14,7 +14,7 @@ namespace {
 
 using Bytes32 = std::array<unsigned char, 32>;
 
-// As OWASP's cheat sheet on password storage advises for 32 MB.
+// These follow OWASP's cheat sheet on password storage, for 32 MB.
 constexpr std::uint64_t kCost = 32768;
 constexpr std::uint64_t kBlock = 8;
 constexpr std::uint64_t kParallel = 3;
@@ -50,7 +50,7 @@ Bytes32 Sha256(std::string_view text) {
   return digest;
 }
 
-// "SALT:HASH"'s hash. Empty where OpenSSL lacks the memory.
+// Returns the hash for the salt, or an empty text if OpenSSL lacks the memory.
 std::string Scrypt(const std::string& password, std::string_view salt) {
   Bytes32 hash{};
   const int done = EVP_PBE_scrypt(password.data(), password.size(),

@@ -24,7 +24,7 @@ std::vector<std::string_view> Fields(std::string_view line) {
   }
 }
 
-// What is wrong with a line; empty: nothing, and the user was added.
+// Adds the user of one line, or returns what is wrong with it.
 std::string Read(std::string_view line, Users& users) {
   const auto fields = Fields(line);
   if (fields.size() != 4) return "is not 'NAME ROLE PASSWORD TOKEN'";

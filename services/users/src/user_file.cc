@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 1U << 20U;
 
-// A folder, for one at a time.
+// Locks a folder for one process at a time.
 class Lock {
  public:
   explicit Lock(const std::filesystem::path& folder)
@@ -37,7 +37,7 @@ class Lock {
   bool holds_ = false;
 };
 
-// Root adds users to a service's folder, and the service is to read them.
+// Root adds users to a service's folder, and the service has to read them.
 Result<void> GiveToOwner(const std::filesystem::path& file) {
   if (geteuid() != 0) return {};
   struct stat folder {};
