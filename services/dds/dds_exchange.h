@@ -17,81 +17,83 @@
 
 namespace trailcast::dds {
 
-// Whom a process meets. Discovery of all by all costs the square of their number; as a star round
-// the route servers, a fleet costs each member the same however large it is.
+// How a process meets others. If everybody discovers everybody, the cost is the square of their
+// number. In a star round the route servers, each member pays the same however large the fleet is.
 enum class Discovery : std::uint8_t {
   kMesh,  // everybody, by multicast
-  kStar,  // route servers, and who is in a mesh: calls them by multicast or at their addresses, and
-          // does not hear others call
-  kAuto,  // a star; if no server is there within some seconds of the beginning a mesh, until one is
+  kStar,  // route servers, and members of a mesh: calls them by multicast or at their addresses,
+          // and does not hear others call
+  kAuto,  // a star; without a server within some seconds it becomes a mesh, until one appears
 };
 
 class Domain;
 
-// For several exchanges of one process, opened one after another: they share the threads and the
-// sockets of the first, whose options are everybody's, and do not hear each other. So a process can
-// be many members that are light.
+// Lets several exchanges of one process, opened one after another, share the threads and the
+// sockets of the first, with its options. They do not hear each other. A process can thus be many
+// light members.
 struct SharedDomain {
   std::weak_ptr<Domain> domain;
-  std::string by;  // the network interface that it was made for
+  std::string by;  // the network interface for which it was made
 };
 
 struct DdsOptions {
-  std::uint32_t domain_id = 0;  // 0..230, decides the UDP ports
-  // Participants with different tags do not see each other: two swarms, or two tests, on one
-  // network.
+  std::uint32_t domain_id = 0;  // 0..230; decides the UDP ports
+  // Participants with different tags do not see each other: two swarms, or two tests, share a
+  // network this way.
   std::string discovery_tag;
-  // Empty: the best there is, with an IPv4 address, but never the loopback: that is for "lo" alone.
-  // When it goes, or has another address, the exchange leaves and joins anew, as with new keys.
+  // If it is empty, the best interface with an IPv4 address is chosen, but never the loopback,
+  // which only "lo" selects. If the interface disappears or gets another address, the exchange
+  // leaves and joins again, as with new keys.
   std::string network_interface;
-  // Where there is no network yet, or a server's name leads nowhere: wait for it, instead of
+  // If there is no network yet, or a server's name has no address, the exchange waits instead of
   // failing.
   bool waits_for_network = false;
-  // Told, in a line each, that it waits, that it has joined, and what has changed since. Called by
-  // OpenDdsExchange and Take.
+  // Called with a line when the exchange waits, when it has joined, and for each change after that.
+  // OpenDdsExchange and Take call it.
   std::function<void(const std::string& line)> tell_of_network{};
-  // Kept up to date by those, for the thread that calls them; null: nobody asks.
+  // These functions keep it up to date, on the thread that calls them; it may be null.
   std::shared_ptr<exchange::NetworkState> network_state{};
-  // Shown by DDS tools in the participant's user data, beside the version of the protocol; not with
-  // keys: it is not encrypted.
+  // DDS tools show it in the participant's user data, beside the protocol's version, but not with
+  // keys, because user data is not encrypted.
   AgentId self;
-  std::string extra_config_xml;  // Cyclone's XML, has the last word
+  std::string extra_config_xml;  // XML for Cyclone that overrides everything else
 
   Discovery discovery = Discovery::kMesh;
-  // A route server, the centre of a star: in every mesh, too, and at the fixed ports of its domain
-  // (7410 and 7411, 250 more for each domain above 0) if those are free on this machine.
+  // Marks a route server, the centre of a star. It is in every mesh, too. It uses the fixed ports
+  // of its domain (7410 and 7411, 250 more for each domain above 0) if those are free on this
+  // machine.
   bool serves = false;
-  // Of route servers, names or IPv4 addresses, to be met where there is no multicast.
+  // Names or IPv4 addresses of route servers, to reach them where there is no multicast.
   std::vector<std::string> server_addresses{};
-  // Told which way others are met, when that was not what was asked for, or changes. Called by
-  // OpenDdsExchange and Take.
+  // Called with how others are met, if that differs from the request or changes. OpenDdsExchange
+  // and Take call it.
   std::function<void(const std::string& line)> tell_of_discovery{};
 
-  // With DDS Security, as the member whose keys these are; without: open to everybody. When the
-  // folder's files change (renewed keys, a new list of revoked ones), or a route server gives a
-  // newer list, which goes into the folder, the exchange joins anew with them within seconds; what
-  // it published lately may then have to be published again. A server gives its list to all.
+  // With keys, the exchange uses DDS Security as their member; without, it is open to everybody. It
+  // joins again within seconds if the folder's files change (renewed keys, a new list of revoked
+  // ones), or if a route server gives a newer list, which is written into the folder. Recent
+  // publications may then have to be repeated. A server gives its list to all.
   std::optional<security::MemberKeys> keys;
-  // Told of each who was kept out, and why: once, and again after ten minutes; and of new keys.
-  // Called by Take.
+  // Called for each participant that was kept out, with the reason, once and again after ten
+  // minutes; and for new keys. Take calls it.
   std::function<void(const std::string& line)> tell_of_stranger{};
 
-  // Told of those that speak another version of the protocol, and so do not hear this program, or
-  // are not heard, on the topics that changed: once, and again after ten minutes. Called by Take.
+  // Called for participants with another version of the protocol, once and again after ten minutes.
+  // On the topics that changed they do not hear this program, or are not heard. Take calls it.
   std::function<void(const std::string& line)> tell_of_version{};
-  std::uint32_t protocol_version = kProtocolVersion;  // another in tests
+  std::uint32_t protocol_version = kProtocolVersion;  // tests set others
 
   std::shared_ptr<SharedDomain> shared_domain{};
 
-  // How long closing waits for the last messages to arrive. Publish waits for nobody.
+  // How long closing waits for the last messages to arrive. Publish never waits.
   std::chrono::milliseconds close_timeout{1000};
 };
 
-// The bus over Cyclone DDS. One participant with the topics of `use`; QoS in qos_table.cc.
-// kUnavailable where there is no network to join and it is not to be waited for. Who was heard
-// before the exchange joined anew, and is not within ten seconds of that, is told to be gone.
-// Destroying it says good-bye for the statuses it published (AgentGone at the others) after
-// waiting, at most close_timeout, for its last messages to arrive.
+// Opens the bus over Cyclone DDS, as one participant with the topics of `use`; qos_table.cc has
+// their QoS. kUnavailable means that there is no network, and waits_for_network is not set. Members
+// that were heard before the exchange joined again, and are not heard within ten seconds after
+// that, are reported as gone. The destructor withdraws the statuses that it published (the others
+// get AgentGone), after it has waited at most close_timeout for its last messages to arrive.
 [[nodiscard]] Result<std::unique_ptr<exchange::RouteExchange>> OpenDdsExchange(
     const DdsOptions& options, const exchange::TopicUse& use);
 

@@ -4,11 +4,11 @@
 
 namespace trailcast::dds {
 
-// One more whenever a type of idl/trailcast.idl changes: who has another definition of a topic is
-// not heard on it, and what versions say of each other is all that tells people why.
+// The version rises whenever a type of idl/trailcast.idl changes. Participants with different
+// definitions of a topic do not hear each other on it, and only their versions tell people why.
 inline constexpr std::uint32_t kProtocolVersion = 7;
 
-// Who does not say its version is of before this one.
+// A participant that does not tell its version has one before this.
 inline constexpr std::uint32_t kFirstVersionSaid = 3;
 
 }  // namespace trailcast::dds

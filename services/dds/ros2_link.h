@@ -15,8 +15,8 @@
 #include "services/motion/motion.h"
 #include "services/motion/scan.h"
 
-// The topics of a ROS 2 robot (idl/ros2.idl), with no ROS installed: the driver's end, and the
-// robot's own. Any ROS 2 middleware over DDS may be at the other end.
+// The topics of a ROS 2 robot (idl/ros2.idl), for the driver's end and the robot's own, without an
+// installation of ROS. The other end may use any ROS 2 middleware over DDS.
 namespace trailcast::dds {
 
 enum class Ros2CommandType : std::uint8_t { kTwist, kTwistStamped };
@@ -24,22 +24,22 @@ enum class Ros2CommandType : std::uint8_t { kTwist, kTwistStamped };
 struct Ros2Options {
   std::uint32_t domain_id = 0;  // ROS_DOMAIN_ID
   std::string discovery_tag;    // real ROS robots have none
-  // Empty: the driver looks on the network's interface, as DDS chooses it, and on the loopback, and
-  // meets nodes under any of ROS 2's usual settings (ros2_network.h).
+  // If it is empty, the driver uses the network's interface, as DDS chooses it, and the loopback,
+  // and so meets nodes with any of ROS 2's usual settings (ros2_network.h).
   std::string network_interface;
-  // ROS names; those without a '/' in front are below `robot`, as in "/robot1".
+  // These are ROS names. Those without a leading '/' are below `robot`, as in "/robot1".
   std::string robot;
   std::string image = "image_raw";  // ends with "/compressed": sensor_msgs/CompressedImage
   std::string odometry = "odom";    // empty: none
   std::string scan;                 // empty: none
-  std::vector<std::string> ranges;  // sensors that measure in a cone, any number
+  std::vector<std::string> ranges;  // any number of sensors that measure in a cone
   std::string imu;                  // empty: none
   std::string battery;              // empty: none
   std::string command = "cmd_vel";
   Ros2CommandType command_type = Ros2CommandType::kTwistStamped;
-  bool hear_commands = false;  // the driver takes what others tell the base, too
+  bool hear_commands = false;  // the driver also takes others' commands to the base
 
-  // "/robot1/image_raw". The others in the same way.
+  // Returns "/robot1/image_raw". The others return theirs in the same way.
   [[nodiscard]] std::string ImageTopic() const;
   [[nodiscard]] std::string OdometryTopic() const;
   [[nodiscard]] std::string ScanTopic() const;
@@ -48,7 +48,7 @@ struct Ros2Options {
   [[nodiscard]] std::string BatteryTopic() const;
   [[nodiscard]] std::string CommandTopic() const;
   [[nodiscard]] bool image_is_compressed() const;
-  // kInvalidArgument for a topic name that ROS or DDS would refuse.
+  // kInvalidArgument names a topic name that ROS or DDS would refuse.
   [[nodiscard]] Result<void> Validate() const;
 };
 
@@ -85,7 +85,7 @@ struct Ros2Scan {
 // sensor_msgs/Range.
 struct Ros2Range {
   SensorTime stamp{};
-  std::size_t sensor = 0;  // of Ros2Options::ranges
+  std::size_t sensor = 0;  // index in Ros2Options::ranges
   motion::ConeRange range;
 };
 
@@ -95,7 +95,7 @@ struct Ros2Imu {
   motion::ImuSample felt;
 };
 
-// sensor_msgs/BatteryState, as it is said: any of these may be no number.
+// sensor_msgs/BatteryState as it is sent: each of these may be NaN.
 struct Ros2Battery {
   SensorTime stamp{};
   float percentage = 0.0F;
@@ -105,14 +105,15 @@ struct Ros2Battery {
 
 // geometry_msgs/Twist or TwistStamped.
 struct Ros2Command {
-  SensorTime stamp{};  // of the frame that it answers; Twist has none
+  SensorTime stamp{};  // of the frame that it answers; a Twist has none
   motion::VelocityCommand velocity;
 };
 
 using Ros2Sensed = std::variant<Ros2Image, Ros2CompressedImage, Ros2Odometry, Ros2Scan, Ros2Range,
                                 Ros2Imu, Ros2Battery, Ros2Command>;
 
-// Who drives the robot: senses and commands. One thread may Take while another calls the rest.
+// The driver's end: it takes sensor data and sends commands. One thread may call Take while another
+// calls the rest.
 class Ros2Driver {
  public:
   [[nodiscard]] static Result<std::unique_ptr<Ros2Driver>> Open(const Ros2Options& options);
@@ -120,40 +121,40 @@ class Ros2Driver {
   Ros2Driver(const Ros2Driver&) = delete;
   Ros2Driver& operator=(const Ros2Driver&) = delete;
 
-  // What came since, after waiting for something at most so long; pictures and odometry of one
-  // publisher each. Samples whose numbers are none
-  // (NaN, a quaternion of length 0) are left out, and scans and ranges that can be no sensor's.
+  // Waits for data at most so long and returns what came since the last call, with pictures and
+  // odometry from one publisher each. It leaves out samples with invalid numbers (NaN, a quaternion
+  // of length 0), and scans and ranges that no sensor can give.
   [[nodiscard]] virtual std::vector<Ros2Sensed> Take(std::chrono::milliseconds max_wait) = 0;
   [[nodiscard]] virtual Result<void> Publish(const Ros2Command& command) = 0;
 
   struct Peers {
-    int cameras = 0;    // who publishes the image topic
-    int odometers = 0;  // who publishes the odometry topic
-    int bases = 0;      // who listens to the command topic
-    // A peer of one of the topics is there, but its quality of service does not go with ours:
-    // which topic, and what policy. Empty: none.
+    int cameras = 0;    // publishers of the image topic
+    int odometers = 0;  // publishers of the odometry topic
+    int bases = 0;      // listeners to the command topic
+    // The topic and the policy of a peer whose quality of service is not compatible with ours;
+    // empty if there is none.
     std::string mismatch;
-    std::string tried;           // on which network interfaces they are sought, for people
-    int scanners = 0;            // who publishes the scan topic
-    std::vector<int> rangers{};  // who publishes each of the range topics
-    int imus = 0;                // who publishes the IMU topic
-    int batteries = 0;           // who publishes the battery topic
-    // Samples of odometry so far that Take left out.
+    std::string tried;           // for people: the network interfaces that were searched
+    int scanners = 0;            // publishers of the scan topic
+    std::vector<int> rangers{};  // publishers of each range topic
+    int imus = 0;                // publishers of the IMU topic
+    int batteries = 0;           // publishers of the battery topic
+    // How many samples of odometry Take has left out.
     int unusable_odometry = 0;
-    // Why the newest message of odometry was left out. Empty: it was not, or none came.
+    // Why the newest odometry message was left out; empty if it was not, or none came.
     std::string unfit_odometry{};
   };
   [[nodiscard]] virtual Peers peers() const = 0;
-  // The topic of pictures or of odometry that several publish at once; empty: neither. One of them
-  // alone is passed on.
+  // Returns the topic of pictures or of odometry that has several publishers at once, or an empty
+  // text. Only one of them is passed on.
   [[nodiscard]] virtual std::string crowded() const { return {}; }
 
  protected:
   Ros2Driver() = default;
 };
 
-// The robot's end, for a virtual one: publishes what it senses, hears what it shall do.
-// Single-threaded.
+// The robot's end, for a virtual robot: it publishes sensor data and takes commands. It is
+// single-threaded.
 class Ros2Robot {
  public:
   [[nodiscard]] static Result<std::unique_ptr<Ros2Robot>> Open(const Ros2Options& options);
@@ -163,19 +164,19 @@ class Ros2Robot {
 
   [[nodiscard]] Result<void> Publish(const Ros2Image& image);
   [[nodiscard]] Result<void> Publish(const Ros2Odometry& odometry);
-  // If there is a scan topic.
+  // Needs a scan topic.
   [[nodiscard]] Result<void> Publish(const Ros2Scan& scan);
-  // If there is that range topic.
+  // Needs the sensor's range topic.
   [[nodiscard]] Result<void> Publish(const Ros2Range& range);
-  // If there is an IMU topic.
+  // Needs an IMU topic.
   [[nodiscard]] Result<void> Publish(const Ros2Imu& imu);
-  // If there is a battery topic.
+  // Needs a battery topic.
   [[nodiscard]] Result<void> Publish(const Ros2Battery& battery);
-  // The latest command that came since, if any, after waiting for one at most so long.
+  // Waits for a command at most so long and returns the latest one that came since the last call.
   [[nodiscard]] std::optional<Ros2Command> Take(std::chrono::milliseconds max_wait);
-  // Whether somebody is there to look at its pictures.
+  // Says whether anybody subscribes to its pictures.
   [[nodiscard]] bool watched() const;
-  [[nodiscard]] bool scan_is_heard() const;  // the same of its scans
+  [[nodiscard]] bool scan_is_heard() const;  // likewise for its scans
   [[nodiscard]] bool range_is_heard(std::size_t sensor) const;
   [[nodiscard]] bool imu_is_heard() const;
 

@@ -14,14 +14,14 @@
 namespace trailcast::dds {
 namespace {
 
-// The address of this machine's from which it sends there; connecting a datagram's socket sends
+// Returns this machine's address from which it sends there. Connecting a datagram socket sends
 // nothing.
 std::optional<in_addr> OwnTowards(in_addr there) {
   const int handle = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (handle < 0) return std::nullopt;
   sockaddr_in to{};
   to.sin_family = AF_INET;
-  to.sin_port = htons(9);  // any
+  to.sin_port = htons(9);  // any port
   to.sin_addr = there;
   sockaddr_in own{};
   socklen_t size = sizeof(own);

@@ -10,15 +10,17 @@
 
 namespace trailcast::dds {
 
-// From where and over what samples come, by the addresses that participants say they listen at.
+// Tells from where and over which interface samples come, by the addresses at which participants
+// say they listen.
 class Arrivals {
  public:
-  // `participant`: as ParticipantText has it.
+  // `participant` is in the form of ParticipantText.
   void See(const std::string& participant, const std::string& address);
   void Lose(const std::string& participant);
-  // After joining anew nobody has been seen yet.
+  // Forgets everything, for an exchange that joins again.
   void Forget();
-  // Of a sample that `reader` has just taken. Without the address until its participant was seen.
+  // Returns the arrival of a sample that `reader` has just taken. It has no address until its
+  // participant was seen.
   [[nodiscard]] exchange::Arrival Of(const Reader& reader, const dds_sample_info_t& sample);
 
  private:
@@ -27,11 +29,12 @@ class Arrivals {
     std::string network;
   };
   std::map<std::string, Way> seen_;
-  std::map<dds_instance_handle_t, std::string> writers_;  // whose they are, of those seen
+  std::map<dds_instance_handle_t, std::string> writers_;  // their participants, for writers that
+                                                          // were seen
 };
 
-// Over which network interface this machine sends to an address, "10.0.0.7:41830": "wlan0". Empty
-// where no way leads there, or it is no IPv4 address.
+// Returns the network interface over which this machine sends to an address, "10.0.0.7:41830":
+// "wlan0". It is empty if there is no route there, or it is no IPv4 address.
 [[nodiscard]] std::string NetworkTowards(const std::string& address);
 
 }  // namespace trailcast::dds

@@ -52,7 +52,8 @@ Error DdsError(dds_return_t code, const std::string& doing) {
 Qos MakeQos() { return Qos(dds_create_qos()); }
 
 Result<Domain> Domain::Create(const std::string& config_xml) {
-  // The id is this process's own (the network sees ExternalDomainId), so any free one will do.
+  // The id matters only in this process (the network sees ExternalDomainId), so any free one will
+  // do.
   constexpr dds_domainid_t kMaxDomains = 230;
   for (dds_domainid_t id = 0; id < kMaxDomains; ++id) {
     const dds_entity_t handle = dds_create_domain(id, config_xml.c_str());
@@ -73,7 +74,7 @@ Result<Participant> Participant::Create(const Domain& domain, const std::string&
   const Qos qos = MakeQos();
   if (hidden) {
     for (const char* property : {"__ProcessName", "__Pid", "__Hostname"}) {
-      dds_qset_prop(qos.get(), property, "");  // Cyclone tells what is not set
+      dds_qset_prop(qos.get(), property, "");  // Cyclone announces what is not set
     }
   }
   dds_qset_userdata(qos.get(), user_data.data(), user_data.size());
@@ -83,7 +84,8 @@ Result<Participant> Participant::Create(const Domain& domain, const std::string&
 }
 
 Result<void> Participant::Call() {
-  // Cyclone tells of itself when its user data changes: a space at their end comes and goes.
+  // Cyclone announces the participant again when its user data changes, so a space at their end
+  // comes and goes.
   const Qos qos = MakeQos();
   void* data = nullptr;
   std::size_t size = 0;
@@ -141,7 +143,7 @@ Result<void> Writer::Unregister(const void* sample) {
   return unregistered;
 }
 
-// Cyclone does that with a heartbeat.
+// Cyclone does this by sending a heartbeat.
 void Writer::Remind() { dds_assert_liveliness(handle()); }
 
 Result<void> Writer::WaitForAcks(std::chrono::milliseconds max_wait) {
@@ -195,7 +197,7 @@ Result<void> Reader::Take(std::size_t max,
                           const std::function<void(const void*, const dds_sample_info_t&)>& use) {
   constexpr std::size_t kAtOnce = 64;
   for (std::size_t taken = 0; taken < max;) {
-    std::array<void*, kAtOnce> samples{};  // null: loaned by Cyclone
+    std::array<void*, kAtOnce> samples{};  // null means that Cyclone lends the samples
     std::array<dds_sample_info_t, kAtOnce> infos{};
     const dds_return_t count = dds_take(handle(), samples.data(), infos.data(), kAtOnce, kAtOnce);
     if (count < 0) return Check(count, "taking");
@@ -237,7 +239,7 @@ Result<WaitSet> WaitSet::Create(const Participant& participant) {
 }
 
 Result<void> WaitSet::Attach(const Reader& reader) {
-  // Belongs to the reader and goes with it.
+  // The condition belongs to the reader and is deleted with it.
   const dds_entity_t condition = dds_create_readcondition(reader.handle(), DDS_ANY_STATE);
   if (condition < 0) return tl::unexpected(DdsError(condition, "creating a read condition"));
   return Check(dds_waitset_attach(handle(), condition, condition), "attaching to a wait set");

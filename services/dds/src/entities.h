@@ -12,11 +12,11 @@
 
 namespace trailcast::dds {
 
-// Cyclone's entities as owners of their handles. Deleting an entity deletes what was made from it,
-// so declare them in the order domain, participant, topics, readers and writers, wait set.
+// These classes own Cyclone's entities. Deleting an entity deletes what was made from it, so
+// declare them in the order domain, participant, topics, readers and writers, wait set.
 
-// kUnavailable for a timeout, kInvalidArgument for what was asked for, kInternal for the rest;
-// names `doing` and Cyclone's reason.
+// Returns kUnavailable for a timeout, kInvalidArgument for a bad request, kInternal for the rest.
+// The message has `doing` and Cyclone's reason.
 [[nodiscard]] Error DdsError(dds_return_t code, const std::string& doing);
 
 class Entity {
@@ -49,8 +49,8 @@ struct QosDeleter {
 using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
 [[nodiscard]] Qos MakeQos();
 
-// A domain of this process with its own configuration (Cyclone XML). Several may be open at once,
-// and on the network be one and the same: DomainConfig names the external id.
+// A domain of this process with its own configuration (Cyclone XML). Several may be open at once
+// and be the same on the network, because DomainConfig names the external id.
 class Domain : public Entity {
  public:
   [[nodiscard]] static Result<Domain> Create(const std::string& config_xml);
@@ -63,12 +63,12 @@ class Domain : public Entity {
 
 class Participant : public Entity {
  public:
-  // `user_data` is told to everybody, and shown by DDS tools. `hidden`: but nothing else is, not
-  // host and process, which Cyclone would tell.
+  // `user_data` is announced to everybody, and DDS tools show it. With `hidden`, the host and the
+  // process, which Cyclone would announce as well, are left out.
   [[nodiscard]] static Result<Participant> Create(const Domain& domain,
                                                   const std::string& user_data,
                                                   bool hidden = false);
-  // Tells of itself once more, now: who was not there may be now.
+  // Announces the participant again, for those who were not there before.
   [[nodiscard]] Result<void> Call();
 
  private:
@@ -89,23 +89,23 @@ class Writer : public Entity {
  public:
   [[nodiscard]] static Result<Writer> Create(const Participant& participant, const Topic& topic,
                                              const Qos& qos);
-  // kUnavailable when a reader that does not keep up blocked it for the QoS's blocking time.
+  // kUnavailable means that a slow reader blocked it for the QoS's blocking time.
   [[nodiscard]] Result<void> Write(const void* sample);
-  // The same, but sent when it fills a packet with others, or by Flush, Dispose or Unregister; in
-  // a domain that writes in batches.
+  // Does the same, but in a domain that writes in batches it sends only when a packet is full, or
+  // with Flush, Dispose or Unregister.
   [[nodiscard]] Result<void> Gather(const void* sample);
   void Flush();
-  // The instance with this sample's key is gone: said to every reader.
+  // Tells every reader that the instance with this sample's key is gone.
   [[nodiscard]] Result<void> Dispose(const void* sample);
-  // Nothing more is said of that instance: what was written still arrives.
+  // Ends writing of that instance; what was written still arrives.
   [[nodiscard]] Result<void> Unregister(const void* sample);
-  // Tells readers once more what was written: who lacks some of it asks for it.
+  // Tells readers once more that there are samples, so that those who lack some ask for them.
   void Remind();
-  // kUnavailable if some reader has not got everything by then.
+  // kUnavailable means that some reader did not get everything in time.
   [[nodiscard]] Result<void> WaitForAcks(std::chrono::milliseconds max_wait);
-  // Readers that get what is written.
+  // Returns the number of connected readers.
   [[nodiscard]] int matched() const;
-  // The policy for which a reader was last refused; empty: none was.
+  // Returns the policy for which a reader was last refused, or an empty text.
   [[nodiscard]] std::string refused_policy() const;
 
  private:
@@ -116,23 +116,23 @@ class Reader : public Entity {
  public:
   [[nodiscard]] static Result<Reader> Create(const Participant& participant, const Topic& topic,
                                              const Qos& qos);
-  // Of one of Cyclone's own topics, DDS_BUILTIN_TOPIC_...
+  // Makes a reader of one of Cyclone's own topics, DDS_BUILTIN_TOPIC_...
   [[nodiscard]] static Result<Reader> CreateBuiltin(const Participant& participant,
                                                     dds_entity_t topic);
-  // Gives each sample received since the last call to `use`, whose pointer is valid during the call
-  // only. With valid_data false only the key fields are set. At most `max` samples.
+  // Calls `use` with each sample received since the last call, at most `max`. The pointer is valid
+  // only during the call. If valid_data is false, only the key fields are set.
   [[nodiscard]] Result<void> Take(
       std::size_t max, const std::function<void(const void*, const dds_sample_info_t&)>& use);
-  // Whether that writer is still there.
+  // Says whether that writer still exists.
   [[nodiscard]] bool Matches(dds_instance_handle_t writer) const;
-  // Writers from which it gets samples.
+  // Returns the number of connected writers.
   [[nodiscard]] int matched() const;
-  // The policy for which a writer was last refused; empty: none was.
+  // Returns the policy for which a writer was last refused, or an empty text.
   [[nodiscard]] std::string refused_policy() const;
-  // Whose a writer is that a sample came from; nothing if that writer is gone.
+  // Returns the participant of a sample's writer, or nothing if the writer is gone.
   [[nodiscard]] std::optional<dds_guid_t> ParticipantOf(dds_instance_handle_t writer) const;
-  // The partition of a writer that a sample came from; nothing if that writer is gone, or writes in
-  // none or several.
+  // Returns the partition of a sample's writer, or nothing if the writer is gone or does not write
+  // in exactly one.
   [[nodiscard]] std::optional<std::string> PartitionOf(dds_instance_handle_t writer) const;
 
  private:

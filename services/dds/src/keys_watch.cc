@@ -5,7 +5,7 @@
 namespace trailcast::dds {
 namespace {
 
-// So long a folder may be in the middle of being copied.
+// Copying a folder may take so long.
 constexpr auto kCopying = std::chrono::seconds(10);
 
 }  // namespace
@@ -14,14 +14,14 @@ std::optional<security::MemberKeys> KeysWatch::Look(const security::MemberKeys& 
   const std::string version = security::KeysVersion(held.folder);
   if (version == version_) return std::nullopt;
   auto keys = security::LoadMemberKeys(held.folder, std::chrono::system_clock::now());
-  // While a folder is being copied its files do not belong together: the old keys go on.
+  // While a folder is being copied, its files do not belong together, and the old keys stay in use.
   if (!keys || keys->name != held.name) {
     TellUnusable(version,
                  keys ? fmt::format("they are those of '{}'", keys->name) : keys.error().message);
     return std::nullopt;
   }
   if (keys->authority == held.authority && IsNewer(held.revoked, keys->revoked)) {
-    if (Keep(held.revoked, held)) return std::nullopt;  // until the next look
+    if (Keep(held.revoked, held)) return std::nullopt;  // wait for the next look
     keys->revoked = held.revoked;
   }
   version_ = version;
@@ -50,7 +50,7 @@ bool KeysWatch::TakeList(const std::string& text, const std::string& from,
   if (!IsNewer(*list, held.revoked)) return false;
   if (tell_) tell_(fmt::format("{} came from {}", Describe(*list), from));
   const bool in_use = security::KeysVersion(held.folder) == version_;
-  // What was written here need not be taken up from there.
+  // The change of the folder is our own, so it need not be taken up.
   if (Keep(*list, held) && in_use) version_ = security::KeysVersion(held.folder);
   held.revoked = *std::move(list);
   return true;

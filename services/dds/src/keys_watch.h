@@ -11,8 +11,8 @@
 
 namespace trailcast::dds {
 
-// Sees to it that a running program goes by its keys' folder as it is now, and by the newest list
-// of revoked certificates that it has heard of. No DDS: who drives it joins anew with what it
+// Keeps a running program up to date with its keys' folder, and with the newest list of revoked
+// certificates that it has heard of. It knows no DDS; its caller joins again with the keys that it
 // returns.
 class KeysWatch {
  public:
@@ -23,17 +23,17 @@ class KeysWatch {
   KeysWatch(const security::MemberKeys& keys, Tell tell)
       : tell_(std::move(tell)), version_(security::KeysVersion(keys.folder)) {}
 
-  // The keys to join anew with, if the folder's files changed and can be used. The list in `held`
-  // stays if it is newer than the folder's, and is written there.
+  // Returns the keys with which to join again if the folder's files changed and can be used. The
+  // list in `held` stays if it is newer than the folder's, and is then written there.
   [[nodiscard]] std::optional<security::MemberKeys> Look(const security::MemberKeys& held);
 
-  // A list of revoked certificates that `from` gave. True if it is one of the fleet's and newer
-  // than the one in `held`, which then has it and is to be joined anew with. It is written into the
-  // folder, too; where that cannot be written it holds for this run.
+  // Takes a list of revoked certificates from `from`. Returns true if it is one of the fleet's and
+  // newer than the one in `held`; it is then in `held`, with which the caller has to join again. It
+  // is also written into the folder. If that cannot be written, the list holds for this run.
   [[nodiscard]] bool TakeList(const std::string& text, const std::string& from,
                               security::MemberKeys& held);
 
-  // Of the keys; not twice in a row.
+  // Leaves out a line that equals the last one.
   void TellOnce(const std::string& line);
 
  private:
@@ -42,9 +42,9 @@ class KeysWatch {
 
   Tell tell_;
   std::string version_;           // of the files in use
-  std::string unusable_version_;  // of files that changed, and cannot be used
+  std::string unusable_version_;  // of changed files that cannot be used
   Clock::time_point unusable_since_{};
-  std::string told_;  // last
+  std::string told_;  // the last line
   ToldLately refused_{std::chrono::minutes(10)};
 };
 

@@ -11,7 +11,8 @@ using T = exchange::Topic;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kForever{0};
-// Three missed heartbeats on a bad radio link, and still soon enough for people to notice.
+// This allows three missed heartbeats on a bad radio link, and is still soon enough for people to
+// notice.
 constexpr milliseconds kAgentLease{3000};
 
 struct Row {
@@ -19,10 +20,10 @@ struct Row {
   TopicQos qos;
 };
 
-// No topic keeps all: a writer would wait for a reader that is dead or hangs until its lease is
-// over (10 s), and with it everybody else. Whoever gets no answer, or lost a segment, asks again;
-// who asks for segments has no more under way than its link carries (exchange::WantList). 256
-// batches of segments are 12 MB on either side.
+// No topic keeps all samples: a writer would wait for a dead or hanging reader until its lease is
+// over (10 s), and everybody else would wait as well. A client without an answer, or with a lost
+// segment, asks again, and it requests no more segments at once than its link carries
+// (exchange::WantList). 256 batches of segments are 12 MB on either side.
 // clang-format off
 constexpr std::array kTable = {
     // topic           transient-local  keep last  liveliness
@@ -76,7 +77,7 @@ Qos MakeQos(const TopicQos& of, const std::vector<std::string>& partitions) {
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, of.keep_last);
   if (of.transient_local) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-    // What late joiners get is decided by this one, not by the history.
+    // The durability service, not the history, decides what late joiners get.
     dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, of.keep_last,
                                 DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   }
@@ -84,7 +85,7 @@ Qos MakeQos(const TopicQos& of, const std::vector<std::string>& partitions) {
     dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, nanoseconds(of.liveliness));
   }
   dds_qset_writer_data_lifecycle(qos.get(), true);
-  std::vector<const char*> names;  // "" alone is what there is without any
+  std::vector<const char*> names;  // "" alone stands for no partitions
   for (const std::string& partition : partitions) names.push_back(partition.c_str());
   dds_qset_partition(qos.get(), static_cast<std::uint32_t>(names.size()), names.data());
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);

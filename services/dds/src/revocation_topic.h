@@ -9,22 +9,22 @@
 
 namespace trailcast::dds {
 
-// Where route servers give the fleet's list of revoked certificates to all members, themselves
-// included; only of a fleet with keys. A list is its authority's word, whoever brings it, and each
-// who takes one joins anew: so a server writes its own once, when it joins, and who comes later
-// gets it, too.
+// The topic on which route servers give the fleet's list of revoked certificates to all members,
+// including themselves, in a fleet with keys. The authority signs a list, so it does not matter who
+// brings it. Every member that takes one joins again. A server therefore writes its own list once,
+// when it joins; later members get it, too.
 class RevocationTopic {
  public:
-  // As the keys' permissions allow. `wait_set` then wakes for what comes.
+  // Opens what the keys' permissions allow; `wait_set` then wakes for what comes.
   [[nodiscard]] static Result<RevocationTopic> Open(const Participant& participant,
                                                     WaitSet& wait_set,
                                                     const security::MemberKeys& keys);
 
   struct Offer {
-    std::string from;  // "server/4f2a9c0d11223344", by DDS's word
-    std::string text;  // as it came; cut off where it is longer than any list may be
+    std::string from;  // "server/4f2a9c0d11223344", as DDS guarantees
+    std::string text;  // as it came, cut off beyond the length that any list may have
   };
-  // What came since the last call.
+  // Returns what came since the last call.
   [[nodiscard]] std::vector<Offer> Take();
 
  private:
@@ -35,7 +35,7 @@ class RevocationTopic {
 
   Topic topic_;
   Reader reader_;
-  std::optional<Writer> writer_;  // a server's
+  std::optional<Writer> writer_;  // only a server has one
 };
 
 }  // namespace trailcast::dds

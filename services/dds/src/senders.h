@@ -12,19 +12,20 @@
 
 namespace trailcast::dds {
 
-// Whose the samples are that readers take, in a fleet with keys.
+// Tells whose samples readers take, in a fleet with keys.
 class Senders {
  public:
-  // By the partition that the writer writes in, as no other member may. Null when nobody knows any
-  // more who wrote it: anybody could have. Valid until the next call.
+  // Returns the member by the writer's partition, in which no other member may write. It is null if
+  // nobody knows any more who wrote the sample, so that anybody could have. It is valid until the
+  // next call.
   [[nodiscard]] const security::Member* Of(const Reader& reader, dds_instance_handle_t writer);
 
  private:
   std::map<dds_instance_handle_t, security::Member> members_;
 };
 
-// Whether the message is its sender's to send (security::CheckAuthor); notes in a batch of segments
-// how far that sender is believed.
+// Checks that the message is its sender's to send (security::CheckAuthor), and notes in a batch of
+// segments how far that sender is trusted.
 [[nodiscard]] Result<void> CheckSender(const security::Member& sender, const std::string& name_key,
                                        exchange::Message& message);
 

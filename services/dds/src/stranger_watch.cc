@@ -9,13 +9,13 @@
 namespace trailcast::dds {
 namespace {
 
-// Strangers can make up names without end.
+// Strangers can make up any number of names.
 constexpr std::size_t kMostStrangers = 1000;
 
 // A refusal may be heard so long before its participant is seen.
 constexpr std::chrono::seconds kAhead{2};
 
-// What stands between two marks in a line; nothing if they are not there.
+// Returns the text between two marks in a line, or nothing if they are not there.
 std::optional<std::string> Between(std::string_view line, std::string_view from,
                                    std::string_view to) {
   const std::size_t begin = line.find(from);
@@ -27,7 +27,7 @@ std::optional<std::string> Between(std::string_view line, std::string_view from,
 
 constexpr const char* kOtherRules = "security_attributes mismatch";
 
-// OpenSSL's words and Cyclone's, and what they mean for a fleet.
+// These are OpenSSL's and Cyclone's words, and their meaning for a fleet.
 constexpr std::pair<const char*, const char*> kReasons[] = {
     {"unable to get local issuer certificate", "its keys are of another authority"},
     {"certificate signature failure", "its keys are of another authority"},
@@ -48,7 +48,7 @@ std::string Meaning(std::string_view line) {
   return std::string(line);
 }
 
-// "b4bcbdad:8cb94d6f:9f600af6" of the GUID that follows `mark`.
+// Returns "b4bcbdad:8cb94d6f:9f600af6" of the GUID that follows `mark`.
 std::optional<std::string> ParticipantAfter(std::string_view line, std::string_view mark) {
   const std::size_t at = line.find(mark);
   if (at == std::string_view::npos) return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<std::string> ParticipantAfter(std::string_view line, std::string_v
   return std::nullopt;
 }
 
-// What a participant was kept from, by the words in front of its GUID.
+// The words before a GUID, and what they say its participant was kept from.
 struct Kept {
   const char* mark;
   const char* doing;
@@ -86,7 +86,7 @@ void StrangerWatch::See(const std::string& participant, const Peers::SaidOfItsel
 }
 
 void StrangerWatch::Prove(const std::string& participant, const std::string& about) {
-  // What it writes may be known a moment before it itself is.
+  // Its writers may be known a moment before the participant itself.
   Participant& proven = participants_[participant];
   proven.proven = true;
   if (!about.empty()) proven.about = about;
@@ -96,7 +96,7 @@ void StrangerWatch::Lose(const std::string& participant) { participants_.erase(p
 
 bool StrangerWatch::HandleWarning(std::string_view line, Time now) {
   if (auto subject = Between(line, "; subject: /", "(code")) {
-    if (subject->starts_with("CN=")) subject->erase(0, 3);  // as those of ours are
+    if (subject->starts_with("CN=")) subject->erase(0, 3);  // ours begin so
     if (refused_.size() >= kMostStrangers) refused_.clear();
     refused_.try_emplace(*subject, Refused{.first_at = now}).first->second.last_at = now;
     Tell(*subject, Meaning(line), now);
@@ -108,9 +108,9 @@ bool StrangerWatch::HandleWarning(std::string_view line, Time now) {
     if (const auto found = participants_.find(*participant); found != participants_.end()) {
       found->second.told = true;
     }
-    // "...: trailcast/routes denied by default rule(code: 1)"
+    // The line has "...: trailcast/routes denied by default rule(code: 1)".
     const auto topic = Between(line, ": trailcast/", " ");
-    // One that goes by other rules is kept from everything, which is told once.
+    // A participant with other rules is kept from everything, which is reported once.
     const std::string from =
         line.find(kOtherRules) != std::string_view::npos
             ? ""
@@ -118,7 +118,7 @@ bool StrangerWatch::HandleWarning(std::string_view line, Time now) {
     Tell(Describe(*participant), from + Meaning(line), now);
     return true;
   }
-  // Said of everybody who is not known yet, members that are only just arriving among them.
+  // Cyclone says this of every unknown participant, even of members that are just arriving.
   const bool is_common = line.find("onsecure") != std::string_view::npos ||
                          line.find("secure remote") != std::string_view::npos ||
                          line.find("secure participant") != std::string_view::npos;
@@ -134,8 +134,8 @@ void StrangerWatch::Tell(const std::string& who, const std::string& why, Time no
   lines_.push_back(fmt::format("kept out: {}: {}", who, why));
 }
 
-// Who was refused by its certificate is one of those that did not prove themselves: the one that
-// came nearest to the first refusal.
+// A certificate's owner is one of the participants that did not prove themselves. It is taken to be
+// the one that was seen closest to the first refusal.
 bool StrangerWatch::IsExplained(const Participant& participant) {
   for (auto& [subject, refused] : refused_) {
     if (refused.matched || refused.last_at + kAhead < participant.seen_at) continue;
@@ -152,7 +152,7 @@ const StrangerWatch::Participant* StrangerWatch::OwnerOf(const Refused& refused)
     return std::chrono::abs(refused.first_at - one.seen_at);
   };
   for (const auto& [name, one] : participants_) {
-    // Who has a certificate hardly names itself in the clear.
+    // An owner of a certificate hardly tells its name unencrypted.
     if (one.proven || one.told || one.names_itself) continue;
     if (owner == nullptr || apart(one) < apart(*owner)) owner = &one;
   }

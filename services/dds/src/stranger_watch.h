@@ -12,28 +12,29 @@
 
 namespace trailcast::dds {
 
-// Tells of each who tries to take part and may not, once, with who and why. Puts together what
-// Cyclone warns of and which participants are seen; no clock, no DDS. Participants go by the first
-// three words of their GUID, as Cyclone writes them: "b4bcbdad:8cb94d6f:9f600af6".
+// Reports each participant that tries to take part without permission, once, with its name and the
+// reason. It combines Cyclone's warnings with the participants that are seen. It has no clock and
+// knows no DDS. Participants are named by the first three words of their GUID, as Cyclone writes
+// them: "b4bcbdad:8cb94d6f:9f600af6".
 class StrangerWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  // A member proves itself in well under a second; on a bad radio link in several.
+  // A member proves itself in well under a second, or in several on a bad radio link.
   static constexpr std::chrono::seconds kPatience{10};
   static constexpr std::chrono::minutes kAgain{10};
 
-  // A participant is there, a stranger until it is proven.
+  // Notes a participant, which is a stranger until it is proven.
   void See(const std::string& participant, const Peers::SaidOfItself& said, Time now);
-  // It is a member: it can be understood. `about` says which, if that is known.
+  // Notes that it is a member, because it can be decrypted. `about` names it, if that is known.
   void Prove(const std::string& participant, const std::string& about);
   void Lose(const std::string& participant);
 
-  // A warning of Cyclone's. False if it is none about a stranger.
+  // Takes a warning of Cyclone's; returns false if it is not about a stranger.
   bool HandleWarning(std::string_view line, Time now);
-  // A member did what is not its to do.
+  // Notes that a member did something that it may not do.
   void HandleMisuse(const std::string& who, const std::string& why, Time now);
 
-  // What is to be told.
+  // Returns the lines to be reported.
   [[nodiscard]] std::vector<std::string> Tick(Time now);
 
  private:
@@ -57,7 +58,7 @@ class StrangerWatch {
 
   std::map<std::string, Participant> participants_;
   std::map<std::string, Refused> refused_;  // by the certificate's subject
-  ToldLately told_{kAgain};                 // who, and why
+  ToldLately told_{kAgain};                 // who, and the reason
   std::vector<std::string> lines_;
 };
 

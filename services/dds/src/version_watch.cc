@@ -12,7 +12,7 @@
 namespace trailcast::dds {
 namespace {
 
-// Whoever is on the network can make up names without end.
+// Anybody on the network can make up any number of names.
 constexpr std::size_t kMostVersions = 1000;
 
 constexpr std::size_t kMostNamed = 5;
@@ -50,7 +50,7 @@ void VersionWatch::See(const std::string& participant, const Peers::SaidOfItself
       keys_ || (IsValidName(said.name) && (said.version || said.name != kRobotsEnd));
   Participant* const seen = Find(participant);
   if (seen == nullptr) return;
-  // A command has its process's number in its name, and shall not be told of at every call.
+  // A command has its process's number in its name, but must not be reported at every call.
   std::string who = keys_ ? said.about : fmt::format("'{}'", WithoutProcess(said.name));
   seen->who = is_ours ? std::move(who) : std::string();
   seen->version = said.version.value_or(kFirstVersionSaid - 1);

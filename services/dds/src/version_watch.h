@@ -11,9 +11,9 @@
 
 namespace trailcast::dds {
 
-// Tells of those that speak another version of the protocol, once, and again after a while. Of
-// others' DDS it knows nothing: without keys who gives itself a name like ours is one of us, with
-// keys who has proven itself. No clock, no DDS.
+// Reports participants with another version of the protocol, once and again after a while. It
+// ignores other people's DDS: without keys, a participant that names itself as ours do is one of
+// us; with keys, one that has proven itself is. It has no clock and knows no DDS.
 class VersionWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -24,15 +24,15 @@ class VersionWatch {
   void See(const std::string& participant, const Peers::SaidOfItself& said);
   void Prove(const std::string& participant);
   void Lose(const std::string& participant);
-  // All are to be seen anew.
+  // Forgets all, which will be seen again.
   void Forget() { participants_.clear(); }
 
-  // What is to be told, a line for each version that somebody else speaks.
+  // Returns a line for each version that somebody else speaks.
   [[nodiscard]] std::vector<std::string> Tick(Time now);
 
  private:
   struct Participant {
-    std::string who;  // for the line; empty: not seen, or none of us
+    std::string who;  // for the line; empty if it was not seen, or is none of us
     std::uint32_t version = 0;
     bool proven = false;
   };

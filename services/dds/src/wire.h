@@ -11,22 +11,24 @@
 
 namespace trailcast::dds {
 
-// Between our messages and the C structs that idlc makes of idl/trailcast.idl.
+// These convert between our messages and the C structs that idlc makes of idl/trailcast.idl.
 
 inline constexpr std::uint8_t kUnknownPercent = 255;
 inline constexpr std::uint8_t kDoesNotFollow = 255;
 
 [[nodiscard]] const dds_topic_descriptor_t& TypeOf(exchange::Topic topic);
 
-// Gives `use` the message as a sample of its topic's type. The sample points into the message and
-// is valid during the call only. The message is within bounds (CheckBounds) and not AgentGone.
+// Calls `use` with the message as a sample of its topic's type. The sample points into the message
+// and is valid only during the call. The message must be within bounds (CheckBounds) and not
+// AgentGone.
 using UseSample = std::function<Result<void>(const void* sample)>;
 [[nodiscard]] Result<void> WithWire(const exchange::Message& message, const UseSample& use);
 
-// A copy of a received sample; kInvalidArgument if anything in it is out of bounds.
+// Returns a copy of a received sample; kInvalidArgument means that something in it is out of
+// bounds.
 [[nodiscard]] Result<exchange::Message> FromWire(exchange::Topic topic, const void* sample);
 
-// From the key fields of a sample of the agents topic.
+// Reads the key fields of a sample of the agents topic.
 [[nodiscard]] Result<exchange::AgentGone> GoneFromWire(const void* sample);
 
 }  // namespace trailcast::dds

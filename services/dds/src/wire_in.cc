@@ -18,9 +18,9 @@ using route::RouteState;
 
 constexpr float kSubpixels = 16.0F;
 
-// Values are copied as they are, sizes that CheckBounds refuses included; it comes afterwards.
+// Values are copied as they are, even with sizes that CheckBounds will refuse afterwards.
 
-// Too long a text is cut just above what any bound allows.
+// Cuts a text that is too long just above the longest allowed one.
 std::string Text(const char* text) {
   constexpr std::size_t kAboveAnyBound = kMaxLineBytes + 1;
   return text == nullptr ? std::string() : std::string(text, strnlen(text, kAboveAnyBound));

@@ -15,7 +15,7 @@ using namespace exchange;  // every message type is used here
 using route::RouteInfo;
 using route::RouteKey;
 
-// The C types know no const; dds_write only reads.
+// The C types have no const, but dds_write only reads.
 char* Lend(const std::string& text) { return const_cast<char*>(text.c_str()); }
 
 template <typename Sequence, typename Element>
@@ -25,7 +25,7 @@ void Lend(std::vector<Element>& elements, Sequence& sequence) {
   sequence._release = false;
 }
 
-// Arrays of texts that a sample points to, kept until it was written.
+// Keeps the arrays of texts that a sample points to until it was written.
 class TextArrays {
  public:
   template <typename Sequence>

@@ -15,7 +15,7 @@ constexpr std::size_t kMostLines = 1000;
 
 struct Sink {
   std::mutex mutex;
-  std::map<dds_domainid_t, std::vector<std::string>> lines;  // of domains that are listened to
+  std::map<dds_domainid_t, std::vector<std::string>> lines;  // of domains with a listener
 };
 
 Sink& TheSink() {
@@ -28,7 +28,8 @@ void Receive(void* /*argument*/, const dds_log_data_t* data) {
   while (!line.empty() && line.back() == '\n') line.pop_back();
   Sink& sink = TheSink();
   const std::lock_guard lock(sink.mutex);
-  // Cyclone's security gives no domain, or any number: what no one listens to is for all of them.
+  // Cyclone's security plug-ins give no domain, or any number. Lines of a domain without a listener
+  // go to all listeners.
   const bool addressed = sink.lines.contains(data->domid);
   for (auto& [domain, lines] : sink.lines) {
     if ((domain == data->domid || !addressed) && lines.size() < kMostLines) lines.push_back(line);

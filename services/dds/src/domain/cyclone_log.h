@@ -12,10 +12,10 @@
 
 namespace trailcast::dds {
 
-// What Cyclone warns of in one domain of this process, line by line, instead of on stderr; and what
-// it warns of without saying in which. Cyclone writes to one place per process, so all of these
-// share it. Lines come from Cyclone's threads;
-// Take is for any. Before the domain's first participant is made, so that nothing is missed.
+// Collects Cyclone's warnings in one domain of this process, and those without a domain, instead of
+// writing them to stderr. Cyclone has one log per process, so all instances share it. Lines come
+// from Cyclone's threads; any thread may call Take. It must exist before the domain's first
+// participant, to miss nothing.
 class CycloneLog {
  public:
   explicit CycloneLog(dds_domainid_t domain);
@@ -23,25 +23,26 @@ class CycloneLog {
   CycloneLog(const CycloneLog&) = delete;
   CycloneLog& operator=(const CycloneLog&) = delete;
 
-  // Since the last call, at most a thousand.
+  // Returns at most a thousand lines since the last call.
   [[nodiscard]] std::vector<std::string> Take();
 
  private:
   dds_domainid_t domain_;
 };
 
-// Cyclone warns of each packet that it cannot send: lines that differ in numbers alone are told
-// once, and counted until they are told again, after ten minutes. No clock.
+// Thins out Cyclone's warnings, of which there is one for each packet that cannot be sent. Lines
+// that differ only in numbers are reported once and counted until they are reported again, after
+// ten minutes. It has no clock.
 class CycloneWarnings {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  // What is to be told of `line` now; empty: nothing.
+  // Returns what is to be reported for `line` now, which may be empty.
   [[nodiscard]] std::string Note(const std::string& line, Time now);
 
  private:
   ToldLately told_{std::chrono::minutes(10)};
-  std::map<std::string, std::uint64_t> untold_;  // by what they have alike
+  std::map<std::string, std::uint64_t> untold_;  // by the part that lines have in common
 };
 
 }  // namespace trailcast::dds

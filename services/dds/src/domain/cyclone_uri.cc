@@ -9,7 +9,7 @@
 namespace trailcast::dds {
 
 std::string CycloneUri() {
-  // Nobody writes to the environment.
+  // Nothing writes to the environment.
   const char* uri = std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe)
   return uri == nullptr ? "" : uri;
 }

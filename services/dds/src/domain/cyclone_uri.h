@@ -4,13 +4,13 @@
 
 namespace trailcast::dds {
 
-// What the environment says; empty: nothing.
+// Returns the environment's CYCLONEDDS_URI, which may be empty.
 [[nodiscard]] std::string CycloneUri();
 
-// The XML that a CYCLONEDDS_URI stands for, as far as it can be read: it names files, or is XML.
+// Returns the XML of a CYCLONEDDS_URI, which is XML or names files, as far as it can be read.
 [[nodiscard]] std::string UriXml(const std::string& uri);
 
-// Whether that XML chooses network interfaces; and whether one of this name is among them.
+// Say whether the XML chooses network interfaces, and whether it chooses the one of this name.
 [[nodiscard]] bool ChoosesInterfaces(const std::string& xml);
 [[nodiscard]] bool ChoosesInterface(const std::string& xml, const std::string& name);
 

@@ -11,13 +11,13 @@
 namespace trailcast::dds {
 namespace {
 
-// The ports of the DDSI specification: of a domain, and in it.
+// These are the ports of the DDSI specification: of a domain, and within it.
 constexpr std::uint32_t kPorts = 7400;
 constexpr std::uint32_t kPortsOfADomain = 250;
 constexpr std::uint32_t kServerMeta = 10;  // participant 0, unicast
 constexpr std::uint32_t kServerData = 11;
-// A star's members listen for servers at another group and port than where a mesh meets: on Linux a
-// socket of that port hears whatever group any process of the machine has joined.
+// A star's members listen for servers at another group and port than a mesh uses. On Linux a socket
+// of that port would otherwise receive every group that any process of the machine has joined.
 constexpr std::uint32_t kStarMeta = 2;
 constexpr const char* kMeshGroup = "239.255.0.1";  // Cyclone's
 constexpr const char* kStarGroup = "239.255.0.2";
@@ -30,7 +30,7 @@ std::string Peer(const std::string& address, std::uint32_t port) {
   return fmt::format("<Peer Address=\"{}:{}\"/>", address, port);
 }
 
-// Cyclone would say nothing of a name that means nothing, and never try again.
+// Cyclone silently ignores a name without an address, and never tries again.
 Result<std::string> ServerPeers(const DdsOptions& options) {
   std::string peers;
   for (const std::string& address : options.server_addresses) {
@@ -74,21 +74,21 @@ Result<std::string> DiscoveryConfig(const DdsOptions& options, const Meeting& me
   std::string peers = *servers;
   std::string internal;
   if (meeting.star && !servers->empty()) {
-    // Whoever is told addresses is where multicast does not get through, data neither.
+    // Addresses are given where multicast does not work, so data must not use it either.
     general = "<AllowMulticast>false</AllowMulticast>";
   } else if (meeting.star) {
-    // No group of its own to call in and to hear others. Data may still be multicast, to the
-    // star's group, where the network has that: on Wi-Fi Cyclone does not.
+    // Members of a star have no group of their own to call in and to hear others. Data may still
+    // use multicast, to the star's group, if the network has it; on Wi-Fi Cyclone avoids it.
     discovery = fmt::format(
         "<SPDPMulticastAddress>0.0.0.0</SPDPMulticastAddress>"
         "<DefaultMulticastAddress>{}</DefaultMulticastAddress>"
         "<Ports><MulticastMetaOffset>{}</MulticastMetaOffset></Ports>",
         kStarGroup, kStarMeta);
     peers = Peer(kMeshGroup, PortOf(domain, 0));
-    // A server that starts is answered by all, not all at once.
+    // All members answer a server that starts, but not all at once.
     internal = "<SPDPResponseMaxDelay>200ms</SPDPResponseMaxDelay>";
   }
-  // Whoever starts here may have heard a star's members before it could answer: it calls them.
+  // A star's members may have called before this process could answer, so it calls them.
   if (!meeting.star) peers += Peer(kStarGroup, PortOf(domain, kStarMeta));
   if (meeting.fixed_ports) discovery += "<ParticipantIndex>0</ParticipantIndex>";
   if (!peers.empty()) discovery += "<Peers>" + peers + "</Peers>";

@@ -7,20 +7,20 @@
 
 namespace trailcast::dds {
 
-// How a process is to join: decided anew each time that it does.
+// How a process joins. It is decided anew each time.
 struct Meeting {
-  bool star = false;         // else a mesh
-  bool fixed_ports = false;  // those at which others know a route server
-  bool sends_much = false;   // segments, not only what is small
-  std::string address{};  // of the interface to go by where none is named; empty: Cyclone chooses
+  bool star = false;         // otherwise a mesh
+  bool fixed_ports = false;  // the ports at which others expect a route server
+  bool sends_much = false;   // segments, not only small messages
+  std::string address{};     // of the interface to use if none is named; if empty, Cyclone chooses
 };
 
-// Cyclone's XML for whom to meet, as a configuration of its own. Resolves the server addresses:
-// kUnavailable names one that has none at present.
+// Returns Cyclone's XML that tells whom to meet. It resolves the servers' names; kUnavailable tells
+// which one has no address at present.
 [[nodiscard]] Result<std::string> DiscoveryConfig(const DdsOptions& options,
                                                   const Meeting& meeting);
 
-// Nobody on this machine has the ports of a domain's route server.
+// Says whether nobody on this machine has the ports of a domain's route server.
 [[nodiscard]] bool FixedPortsAreFree(std::uint32_t domain_id);
 
 }  // namespace trailcast::dds

@@ -7,30 +7,30 @@
 namespace trailcast::dds {
 namespace {
 
-// Measured (tests/bench/README.md, "Routes over bad networks"): a route at 5 % packet loss takes a
-// third to a half of the time with packets that fit an Ethernet frame (larger ones are lost with
-// any of their fragments, and cost a tenth less where nothing is lost), heartbeats after 20 ms
-// instead of 100 (what was lost last is noticed by them), and a NACK after 10 ms instead of 100.
-// Samples above 2 MB cannot be ours: they are not even put together. Watermarks: a writer waits
-// with more than 30 kB unacknowledged, so that a full batch of segments (48 kB) goes out when the
-// one before has arrived. So links take segments as fast as they can and no faster: with 4 MB a
-// link of 1 Mbit/s, whose queue then overflows, does not deliver 1 MB within a minute. The price:
-// who is killed while segments are on their way to it keeps them from the others until its lease
-// ends. Not adaptive: that falls with every loss.
+// Measured in tests/bench/README.md, "Routes over bad networks". At 5 % packet loss, a route takes
+// a third to a half of the time with these settings: packets that fit an Ethernet frame (larger
+// ones are lost with any of their fragments, but cost a tenth less if nothing is lost), heartbeats
+// after 20 ms instead of 100 (they tell that the last packet was lost), and a NACK after 10 ms
+// instead of 100. Samples above 2 MB cannot be ours and are not reassembled.
+// Watermarks: a writer waits if more than 30 kB are unacknowledged, so that a full batch of
+// segments (48 kB) goes out when the one before has arrived. Links then take segments as fast as
+// they can and no faster. With 4 MB, the queue of a link of 1 Mbit/s overflows, and it does not
+// deliver 1 MB within a minute. The price is that a killed receiver of segments delays all others
+// until its lease ends. The watermark is not adaptive, because that falls with every loss.
 constexpr const char* kDefaults =
     "<CycloneDDS><Domain><Internal>"
     "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"1s\">20ms</HeartbeatInterval>"
     "<NackDelay>10ms</NackDelay>"
     "<MaxSampleSize>2MB</MaxSampleSize>"
-    "<WriteBatch>true</WriteBatch>"  // Writer::Write sends at once all the same
+    "<WriteBatch>true</WriteBatch>"  // Writer::Write sends at once nevertheless
     "<Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHigh>30kB</WhcHigh>"
     "<WhcHighInit>30kB</WhcHighInit></Watermarks>"
     "</Internal></Domain></CycloneDDS>";
-// In a star and at its centre (tests/bench/README.md, "Many agents at once"). A server's heartbeats
-// go to all agents that are there as long as one of them has not confirmed what it wrote, and each
-// answers them: rarer ones, and rarer answers. Of those who send little rarer still: a server that
-// a thousand of them join is behind for some seconds, and would be asked again and again.
-// (What a fetch waits for is told again sooner: reminders.h.)
+// These are for a star and its centre (tests/bench/README.md, "Many agents at once"). While one
+// agent has not confirmed what a server wrote, its heartbeats go to all agents, and each answers
+// them; so both are rarer. They are still rarer for processes that send little, because a server
+// that a thousand of them join is some seconds behind and would be asked again and again. A fetch
+// that waits is reminded sooner (reminders.h).
 constexpr const char* kStar =
     "<CycloneDDS><Domain><Internal>"
     "<HeartbeatInterval min=\"5ms\" minsched=\"20ms\" max=\"8s\">100ms</HeartbeatInterval>"
@@ -40,20 +40,19 @@ constexpr const char* kSendsLittle =
     "<CycloneDDS><Domain><Internal>"
     "<HeartbeatInterval min=\"5ms\" minsched=\"100ms\" max=\"8s\">500ms</HeartbeatInterval>"
     "</Internal></Domain></CycloneDDS>";
-// One thread that waits for all sockets. Cyclone ends those that wait for one socket each by a
-// packet to its own address: once that address is gone, closing a domain would wait for it for
-// ever.
+// One thread waits for all sockets. Cyclone ends threads that wait for one socket each by a packet
+// to its own address, so once that address is gone, closing a domain would never end.
 constexpr const char* kEndsWithoutNetwork =
     "<CycloneDDS><Domain><Internal><MultipleReceiveThreads>false</MultipleReceiveThreads></"
     "Internal>"
     "</Domain></CycloneDDS>";
-// On an interface that was chosen; on others Cyclone decides for itself. The environment may forbid
-// it.
+// This applies to a chosen interface; on others Cyclone decides for itself. The environment may
+// forbid multicast.
 constexpr const char* kMulticast =
     "<CycloneDDS><Domain><General><AllowMulticast>true</AllowMulticast></General></Domain>"
     "</CycloneDDS>";
-// The loopback interface has frames of 64 kB and loses nothing: there larger packets take a quarter
-// of the time.
+// The loopback interface has frames of 64 kB and loses nothing, so larger packets take a quarter of
+// the time there.
 constexpr const char* kFrameSized =
     "<CycloneDDS><Domain><General><MaxMessageSize>1400B</MaxMessageSize></General></Domain>"
     "</CycloneDDS>";
@@ -100,7 +99,7 @@ Result<std::string> SecurityConfig(const security::MemberKeys& keys) {
 
 Result<std::string> DomainConfig(const DdsOptions& options, const Meeting& meeting,
                                  const std::string& cyclonedds_uri) {
-  constexpr std::uint32_t kMaxDomainId = 230;  // beyond, port numbers run out
+  constexpr std::uint32_t kMaxDomainId = 230;  // port numbers run out beyond
   if (options.domain_id > kMaxDomainId) {
     return Fail(ErrorCode::kInvalidArgument, "DDS domain id {} is above {}", options.domain_id,
                 kMaxDomainId);
@@ -121,10 +120,10 @@ Result<std::string> DomainConfig(const DdsOptions& options, const Meeting& meeti
                   options.network_interface);
     }
   }
-  // Named in both places it would be there twice, which Cyclone refuses.
+  // Cyclone refuses an interface that is named in both places.
   if (!options.network_interface.empty() &&
       !ChoosesInterface(UriXml(cyclonedds_uri), options.network_interface)) {
-    // Forced: the loopback interface does multicast although it does not say so.
+    // The loopback interface supports multicast although it does not say so, so it is forced.
     general = fmt::format(
         "<General><Interfaces>"
         "<NetworkInterface name=\"{}\" multicast=\"true\"/></Interfaces></General>",

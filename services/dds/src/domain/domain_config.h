@@ -7,10 +7,10 @@
 
 namespace trailcast::dds {
 
-// Cyclone's configuration, later parts taking precedence: our defaults, the environment's
-// CYCLONEDDS_URI, the options (with keys: DDS Security with their files), extra_config_xml.
-// kInvalidArgument for text that cannot be put in XML or a domain id out of range; kUnavailable
-// for a server address that has none at present.
+// Returns Cyclone's configuration, in which later parts take precedence: our defaults, the
+// environment's CYCLONEDDS_URI, the options (with keys, DDS Security with their files),
+// extra_config_xml. Errors: kInvalidArgument for text that cannot be put in XML or a domain id out
+// of range; kUnavailable for a server that has no address at present.
 [[nodiscard]] Result<std::string> DomainConfig(const DdsOptions& options, const Meeting& meeting,
                                                const std::string& cyclonedds_uri);
 

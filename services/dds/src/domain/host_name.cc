@@ -16,7 +16,8 @@ void HideHostName() { g_hidden = true; }
 
 }  // namespace trailcast::dds
 
-// Stands in front of the C library's, for Cyclone's library too: the program is searched first.
+// This hides the C library's function from Cyclone's library as well, because the program is
+// searched first.
 extern "C" int gethostname(char* name, std::size_t size) noexcept {
   utsname machine{};
   const bool told = !trailcast::dds::g_hidden && uname(&machine) == 0;

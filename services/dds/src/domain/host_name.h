@@ -2,8 +2,8 @@
 
 namespace trailcast::dds {
 
-// From now on this process tells nobody the host's name. Cyclone DDS writes it into what it
-// announces in the clear, also with DDS Security, and has no setting for that.
+// Hides the host's name for the rest of this process. Cyclone DDS announces it unencrypted, even
+// with DDS Security, and has no setting against that.
 void HideHostName();
 
 }  // namespace trailcast::dds

@@ -5,28 +5,28 @@
 
 namespace trailcast::dds {
 
-// An IPv4 address of a network interface of this machine, or an interface that has none.
+// A network interface of this machine, with one of its IPv4 addresses if it has any.
 struct Interface {
   std::string name;
-  unsigned index = 0;   // an interface that is made anew gets another
-  std::string address;  // "10.0.0.7"; empty: none
+  unsigned index = 0;   // an interface that is made again gets another one
+  std::string address;  // "10.0.0.7"; empty if there is none
   bool up = false;
-  bool connected = false;  // a cable or a radio leads somewhere
+  bool connected = false;  // a cable or a radio has a link
   bool loopback = false;
   bool multicast = false;
-  bool hardware = false;  // not a bridge of containers, a tunnel or the like
-  bool ipv6 = false;      // has an IPv6 address that other machines reach
+  bool hardware = false;  // no bridge of containers, tunnel or the like
+  bool ipv6 = false;      // has an IPv6 address that other machines can reach
 
-  // Whether who joined by the one is still there with the other.
+  // Equal interfaces can replace each other without joining again.
   [[nodiscard]] bool operator==(const Interface& other) const {
     return name == other.name && index == other.index && address == other.address;
   }
 };
 
-// In the kernel's order, which is Cyclone's. Empty if the kernel does not say.
+// Returns them in the kernel's order, which is Cyclone's, or nothing if the kernel does not tell.
 [[nodiscard]] std::vector<Interface> Interfaces();
 
-// "eth0 (10.0.0.7), lo (127.0.0.1)".
+// Returns "eth0 (10.0.0.7), lo (127.0.0.1)".
 [[nodiscard]] std::string ToText(const std::vector<Interface>& interfaces);
 
 }  // namespace trailcast::dds

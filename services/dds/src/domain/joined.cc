@@ -39,7 +39,7 @@ Qos Apart(const DdsOptions& options, Qos qos) {
 Result<Joined> OpenDomain(const DdsOptions& options, Meeting meeting) {
   if (options.keys) HideHostName();
   auto domain = MakeDomain(options, meeting);
-  if (!domain && meeting.fixed_ports) {  // somebody was quicker
+  if (!domain && meeting.fixed_ports) {  // another process was quicker
     meeting.fixed_ports = false;
     domain = MakeDomain(options, meeting);
   }
@@ -138,7 +138,7 @@ Result<Joined> Joined::Open(const DdsOptions& options, const exchange::TopicUse&
 StarOrMesh::Seen Joined::Look() {
   constexpr std::size_t kMostAtOnce = 1024;
   if (participants) {
-    // What cannot be read now is there the next time.
+    // What cannot be read now will be read the next time.
     (void)participants->Take(kMostAtOnce, [&](const void*, const dds_sample_info_t& info) {
       if (info.instance_state == DDS_IST_ALIVE) {
         present.insert(info.instance_handle);
@@ -148,7 +148,7 @@ StarOrMesh::Seen Joined::Look() {
     });
   }
   StarOrMesh::Seen seen{.server = false, .anybody = present.size() > 1};
-  // Servers alone write these.
+  // Only servers write these.
   for (const exchange::Topic topic :
        {exchange::Topic::kReceipts, exchange::Topic::kCatalogReplies}) {
     const auto reader = readers.find({topic});

@@ -18,17 +18,18 @@
 
 namespace trailcast::dds {
 
-// A writer or reader of a topic: for everybody (kEverybody), or in a scope.
+// A topic's writer or reader, for everybody (kEverybody) or in a scope.
 struct Place {
   exchange::Topic topic;
   std::string scope = kEverybody;
   auto operator<=>(const Place&) const = default;
 };
 
-// What an exchange has open on the network; deleted from the end.
+// Everything that an exchange has open on the network. Members are destroyed from the last to the
+// first.
 struct Joined {
   Meeting meeting;
-  std::unique_ptr<CycloneLog> log;  // of a domain of its own, of which it has the last words, too
+  std::unique_ptr<CycloneLog> log;  // of a domain of its own, including the domain's last lines
   std::shared_ptr<Domain> domain;
   Participant participant;
   Peers peers;
@@ -36,23 +37,23 @@ struct Joined {
   std::map<exchange::Topic, Topic> topics{};
   std::map<Place, Writer> writers{};
   std::map<Place, Reader> readers{};
-  std::optional<RevocationTopic> revocations{};  // with keys that allow it
+  std::optional<RevocationTopic> revocations{};  // if keys allow it
   Senders senders{};                             // with keys
-  std::optional<Reader> participants{};          // unless it is in a mesh for good
-  std::set<dds_instance_handle_t> present{};     // of these, itself included
+  std::optional<Reader> participants{};          // unless it is always in a mesh
+  std::set<dds_instance_handle_t> present{};     // participants at present, including itself
 
-  // By the interface that has `address`, where neither the options nor Cyclone's configuration
-  // names one. With keys: writers in the member's own partition and those below, readers in all. Of
-  // topics to which one listens by route nothing is open at first. A route server takes the fixed
-  // ports if it can: `meeting` says whether it has.
+  // Opens everything on the interface that has `address`, if neither the options nor Cyclone's
+  // configuration name one. With keys, its writers are in the member's own partition and those
+  // below, and its readers in all. Topics that are listened to by route have nothing open at first.
+  // A route server takes the fixed ports if it can; `meeting` then tells whether it has.
   [[nodiscard]] static Result<Joined> Open(const DdsOptions& options, const exchange::TopicUse& use,
                                            bool star, const std::string& address);
-  // Who is connected at present.
+  // Returns who is connected at present.
   [[nodiscard]] StarOrMesh::Seen Look();
 
-  // Opened now if it was not.
+  // Opens the writer now if it is not open yet.
   [[nodiscard]] Result<Writer*> WriterIn(const Place& place, const DdsOptions& options);
-  // Reads `topic` in these scopes and no others.
+  // Reads `topic` in exactly these scopes.
   [[nodiscard]] Result<void> Listen(exchange::Topic topic, const std::set<std::string>& scopes,
                                     const DdsOptions& options);
 };

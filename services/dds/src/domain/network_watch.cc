@@ -10,10 +10,10 @@ namespace {
 
 bool IsUsable(const Interface& interface) { return interface.up && !interface.address.empty(); }
 
-// What an interface gives itself that nobody has given an address (RFC 3927).
+// An interface gives itself such an address if nobody assigns one (RFC 3927).
 bool IsOfItsOwnMaking(const std::string& address) { return address.starts_with("169.254."); }
 
-// What counts most comes first.
+// The most important property comes first.
 int Worth(const Interface& interface) {
   int worth = 0;
   for (const bool good : {interface.connected, interface.multicast,

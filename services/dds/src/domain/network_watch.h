@@ -11,43 +11,45 @@
 
 namespace trailcast::dds {
 
-// Cyclone looks at a machine's interfaces once, when a domain is made. Decides, as they come, go
-// and change their addresses, by which of them to be on the network, and when to join it anew.
-// Stays where it is as long as that is there and nothing better is. No I/O, no clock.
+// Decides which network interface to use, and when to join again, as interfaces come, go and change
+// their addresses. Cyclone itself looks at a machine's interfaces only once, when a domain is made.
+// It stays on an interface as long as that exists and no better one does. It has no I/O and no
+// clock.
 class NetworkWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
   using Clock = std::chrono::steady_clock;
 
-  // So long a change has to last before anything is done about it.
+  // A change has to last so long before anything is done about it.
   static constexpr std::chrono::seconds kSettles{1};
-  // Twice as long each time, up to this, for who joined less than kCalm ago: interfaces flap.
+  // Interfaces flap. If the last join is less than kCalm ago, the time doubles, up to this.
   static constexpr std::chrono::seconds kSettlesAtMost{30};
   static constexpr std::chrono::seconds kCalm{60};
 
   enum class By : std::uint8_t {
-    kOne,     // the one that is named, or the best there is
-    kCyclone  // Cyclone's own configuration names some: whatever changes, it chooses anew
+    kOne,     // the named interface, or the best one
+    kCyclone  // Cyclone's own configuration names some, so Cyclone chooses again whatever changes
   };
-  // `wanted`: the interface's name; empty: any but the loopback, which leads to nobody.
+  // `wanted` is the interface's name. An empty one allows any but the loopback, which reaches
+  // nobody else.
   explicit NetworkWatch(std::string wanted, By by = By::kOne)
       : wanted_(std::move(wanted)), by_(by) {}
 
-  // What there is at the beginning, which need not settle.
+  // Takes the interfaces at the beginning, which need not settle.
   void Begin(const std::vector<Interface>& there, Time now);
 
   enum class Step : std::uint8_t {
     kNone,
-    kLeave,  // nothing is chosen any more
-    kJoin,   // by what is chosen now, having left what was chosen before
+    kLeave,  // nothing can be used any more
+    kJoin,   // leave the former choice, if any, and join by the present one
   };
-  // To be asked every second or so.
+  // Decides the next step; the caller asks every second or so.
   [[nodiscard]] Step Look(const std::vector<Interface>& there, Time now);
 
-  // Empty: there is nothing to join by, and trouble() says why.
+  // An empty list means that there is no interface to use; trouble() says why.
   [[nodiscard]] const std::vector<Interface>& chosen() const { return chosen_; }
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
-  // The last step in words.
+  // Describes the last step.
   [[nodiscard]] const std::string& change() const { return change_; }
 
  private:

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMostAtOnce = 4096;
 
-// What a stranger says of itself is made fit for a line of the log.
+// Makes a stranger's text fit for a line of the log.
 std::string Plain(const char* text) {
   constexpr std::size_t kMost = 100;
   std::string plain(text, strnlen(text, kMost));
@@ -37,14 +37,15 @@ UserData SaidData(const dds_qos_t* qos) {
   return ParseUserData(text);
 }
 
-// "10.0.0.7:41830" of "udp/239.255.0.1:7400@1,udp/10.0.0.7:41830@1", where all members listen, too.
+// Returns "10.0.0.7:41830" from "udp/239.255.0.1:7400@1,udp/10.0.0.7:41830@1". The other address is
+// the group of all members.
 std::string OwnAddress(const std::string& addresses) {
   const std::size_t from = addresses.rfind("udp/");
   if (from == std::string::npos) return addresses;
   return addresses.substr(from + 4, addresses.find('@', from) - from - 4);
 }
 
-// "participant 1:2:3, calling itself 'robot-9', at 10.0.0.7:41830, host lab, process 812"
+// Returns "participant 1:2:3, calling itself 'robot-9', at 10.0.0.7:41830, host lab, process 812".
 Peers::SaidOfItself Said(const dds_builtintopic_participant_t& participant) {
   std::string about = "participant " + ParticipantText(participant.key);
   const auto [name, version] = SaidData(participant.qos);

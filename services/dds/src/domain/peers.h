@@ -10,27 +10,27 @@
 
 namespace trailcast::dds {
 
-// The participants that DDS discovers, members of the fleet and strangers.
+// Watches the participants that DDS discovers, members of the fleet and strangers.
 class Peers {
  public:
-  // `with_proof`: looks at what they write and read, too.
+  // `with_proof` also watches what they write and read.
   [[nodiscard]] static Result<Peers> Create(const Participant& participant, bool with_proof);
 
   struct SaidOfItself {
-    std::string about;   // for a line of the log: addresses, and names if there are any
-    bool names = false;  // in the clear, which members of a fleet with keys do not
-    std::string name{};  // of its user data, as is the version
+    std::string about;   // for a line of the log: addresses, and names if it tells any
+    bool names = false;  // it tells names unencrypted, as members of a fleet with keys do not
+    std::string name{};  // from its user data, as is the version
     std::optional<std::uint32_t> version{};
-    std::string address{};  // "10.0.0.7:41830"; empty: it says none
+    std::string address{};  // "10.0.0.7:41830"; empty if it tells none
   };
   struct Handlers {
-    // `participant`: the first three words of its GUID; `said`: what it says of itself, unproven.
+    // `participant` is the first three words of its GUID; `said` is its own account, without proof.
     std::function<void(const std::string& participant, const SaidOfItself& said)> seen;
-    // Something it writes or reads is known, which only members can say.
+    // A writer or reader of it was discovered, which proves that it is a member.
     std::function<void(const std::string& participant)> proven;
     std::function<void(const std::string& participant)> gone;
   };
-  // What changed since the last call.
+  // Reports the changes since the last call.
   [[nodiscard]] Result<void> Look(const Handlers& handlers);
 
  private:
@@ -39,10 +39,10 @@ class Peers {
 
   dds_guid_t self_;
   Reader participants_;
-  std::vector<Reader> endpoints_;  // publications and subscriptions, with proof
+  std::vector<Reader> endpoints_;  // publications and subscriptions, if with_proof
 };
 
-// As Cyclone writes it: "b4bcbdad:8cb94d6f:9f600af6".
+// Returns it as Cyclone writes it: "b4bcbdad:8cb94d6f:9f600af6".
 [[nodiscard]] std::string ParticipantText(const dds_guid_t& guid);
 
 }  // namespace trailcast::dds

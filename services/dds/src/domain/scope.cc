@@ -31,7 +31,7 @@ std::vector<std::string> ListenersPartitions(const DdsOptions& self, const std::
 
 std::vector<std::string> ReadersPartitions(const DdsOptions& self, exchange::Topic topic) {
   if (self.keys) return {"*"};
-  // Not every DDS takes a writer without partition as one in "*".
+  // Not every DDS matches a writer without a partition with a reader in "*".
   if (exchange::IsOfRoutes(topic)) return {"*", kEverybody};
   return {kEverybody};
 }

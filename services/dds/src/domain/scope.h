@@ -8,28 +8,29 @@
 
 namespace trailcast::dds {
 
-// Samples of the topics to which one listens by route travel in one of 32 scopes, DDS partitions,
-// by their route: a network without multicast sends each sample to every reader of its partition.
-// Not a partition a route: partitions cannot be changed, so each would be a writer and a reader
-// more, which every participant is told of, and which would have to go at some time; of 32 writers
-// none ever has to, and of the segments of two routes that are fetched at once 3 % go to the wrong
-// one, which throws them away.
+// Topics that are listened to by route have 32 scopes, which are DDS partitions; a sample's route
+// tells its scope. A network without multicast sends each sample to every reader of its partition.
+// A partition for each route would not do: partitions cannot be changed, so every route would need
+// a writer and a reader of its own, which every participant is told of and which would have to be
+// deleted some time. The 32 writers never have to go. If two routes are fetched at once, 3 % of
+// their segments go to the wrong robot, which drops them.
 
 inline constexpr const char* kEverybody = "";  // no scope
 
-// "00" to "1f".
+// Returns "00" to "1f".
 [[nodiscard]] std::string ScopeOf(const route::RouteKey& route);
 
-// Keys of before there were scopes allow neither those nor the topics that came with them.
+// Says whether keys allow a topic. Keys from before there were scopes allow neither these nor the
+// topics that came with them.
 [[nodiscard]] bool MayUse(const DdsOptions& self, exchange::Topic topic);
 
-// In which partition `self` writes in a scope. With keys of before there were scopes, which allow
-// none: for everybody.
+// Returns the partition in which `self` writes in a scope. Keys from before there were scopes allow
+// only the one for everybody.
 [[nodiscard]] std::string WritersPartition(const DdsOptions& self, const std::string& scope);
-// In which partitions who listens to a scope reads: what is written in it, and for everybody.
+// Returns the partitions that a listener to a scope reads: the scope's, and the one for everybody.
 [[nodiscard]] std::vector<std::string> ListenersPartitions(const DdsOptions& self,
                                                            const std::string& scope);
-// In which partitions who reads all of a topic reads.
+// Returns the partitions that a reader of the whole topic reads.
 [[nodiscard]] std::vector<std::string> ReadersPartitions(const DdsOptions& self,
                                                          exchange::Topic topic);
 

@@ -23,7 +23,7 @@ std::string ToText(const UserData& data) {
 
 UserData ParseUserData(std::string_view text) {
   text = WithoutSpaces(text);
-  const std::size_t word = text.rfind(' ') + 1;  // 0 if there is but one
+  const std::size_t word = text.rfind(' ') + 1;  // 0 if there is only one word
   if (text.substr(word).starts_with(kMark)) {
     const std::string_view digits = text.substr(word + kMark.size());
     const char* const end = digits.data() + digits.size();

@@ -23,12 +23,12 @@ constexpr int kNewestScans = 2;
 constexpr int kNewestImu = 256;
 constexpr std::chrono::milliseconds kWriteTimeout{100};
 constexpr std::size_t kMaxSamplesPerTake = 256;
-// Our own messages are small; a camera's picture of 12 megapixels in colour is not.
+// Our own messages are small, but a camera's picture of 12 megapixels in colour is not.
 constexpr const char* kPictureSized =
     "<CycloneDDS><Domain><Internal><MaxSampleSize>64MB</MaxSampleSize></Internal></Domain>"
     "</CycloneDDS>";
 
-// ROS: tokens of letters, digits and '_', none beginning with a digit, none empty.
+// A ROS name has tokens of letters, digits and '_'. None begins with a digit, and none is empty.
 bool IsRosName(const std::string& name) {
   bool begins = true;
   for (const char c : name.substr(1)) {
@@ -45,7 +45,7 @@ std::string Resolve(const std::string& robot, const std::string& topic) {
   return (robot == "/" ? "" : robot) + "/" + topic;
 }
 
-// Sensors are heard from whoever offers at least best effort.
+// Sensors are heard from any publisher that offers at least best effort.
 Qos SensorQos(int keep_last) {
   Qos qos = MakeQos();
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
@@ -67,7 +67,7 @@ struct Node {
   std::vector<Topic> topics;
   WaitSet wait_set;
 
-  // `network_xml`: how it is to meet others, if not as any node does.
+  // `network_xml` tells how it meets others, if not as any node does.
   static Result<Node> Open(const Ros2Options& options, const std::string& network_xml = {}) {
     if (auto valid = options.Validate(); !valid) return tl::unexpected(valid.error());
     DdsOptions dds;
@@ -174,13 +174,13 @@ class Ros2DdsDriver final : public Ros2Driver {
   [[nodiscard]] std::string crowded() const override;
 
  private:
-  // Whether a sample is to be passed on.
+  // Says whether a sample is to be passed on.
   [[nodiscard]] bool Counts(Ros2Speaker& speaker, const Reader& reader,
                             const dds_sample_info_t& info);
   void NoteOdometry(const Result<Ros2Odometry>& odometry, std::vector<Ros2Sensed>& sensed);
 
   DriverState state_;
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards everything below
   Ros2Speaker image_speaker_;
   Ros2Speaker odometry_speaker_;
   int unusable_odometry_ = 0;
@@ -229,7 +229,7 @@ Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options)
   std::optional<Reader> others_commands;
   if (options.hear_commands) {
     Qos qos = SensorQos(1);
-    // Not what this driver says; nor is it a base that listens to it.
+    // This ignores the driver's own commands; the driver is no base that listens to them.
     dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
     auto reader = node->Hear(CommandType(options.command_type), options.CommandTopic(), qos);
     if (!reader) return tl::unexpected(reader.error());
@@ -272,7 +272,7 @@ void Ros2DdsDriver::NoteOdometry(const Result<Ros2Odometry>& odometry,
 std::vector<Ros2Sensed> Ros2DdsDriver::Take(std::chrono::milliseconds max_wait) {
   std::vector<Ros2Sensed> sensed;
   DriverState& s = state_;
-  // A failed wait or take leaves what is there to the next call.
+  // After a failed wait or take, the data stay for the next call.
   if (!s.node.wait_set.Wait(max_wait)) return sensed;
   if (s.odometry) {
     (void)s.odometry->Take(kMaxSamplesPerTake,
@@ -396,7 +396,7 @@ Result<std::unique_ptr<Ros2Robot>> Ros2Robot::Open(const Ros2Options& options) {
   if (!odometry) return tl::unexpected(odometry.error());
   std::optional<Writer> scan;
   if (!options.scan.empty()) {
-    // As ROS 2's drivers of scanners offer it.
+    // ROS 2's drivers of scanners offer this QoS.
     auto writer = node->Speak(ScanType(), options.ScanTopic(), SensorQos(kNewestScans));
     if (!writer) return tl::unexpected(writer.error());
     scan = *std::move(writer);

@@ -9,8 +9,8 @@
 namespace trailcast::dds {
 namespace {
 
-// Announced every second: a node that starts later and is told of no peers would otherwise be met
-// after some eight.
+// The participant is announced every second, because a node that starts later and knows no peers
+// would otherwise be met after some eight seconds.
 constexpr const char* kLocalhost =
     "<Discovery><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
     "<SPDPInterval>1s</SPDPInterval><Peers><Peer Address=\"localhost\"/></Peers></Discovery>";
@@ -50,7 +50,7 @@ Ros2Network MeetRos2(const std::string& wanted, const std::string& uri_xml) {
             "(or --network-interface lo)"};
   }
   if (!wanted.empty()) return {Xml(kLoopback), "the interfaces " + wanted + " and lo"};
-  // Cyclone takes the loopback by itself where there is nothing else.
+  // Cyclone uses the loopback by itself if there is nothing else.
   if (!HasANetwork()) return {Xml(""), "the loopback interface: there is no other"};
   return {Xml(std::string(kNetworks) + kLoopback), "the network's interface and the loopback"};
 }

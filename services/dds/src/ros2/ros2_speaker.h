@@ -6,22 +6,23 @@
 
 namespace trailcast::dds {
 
-// Whom a topic is heard from, of several who publish it: whoever was first, until it is gone or
-// silent. Two robots in one namespace, or a driver that was left over, say what does not go
-// together. Reads no clock itself.
+// Chooses the publisher from which a topic is heard if there are several: the first one, until it
+// is gone or silent. Two robots in one namespace, or a left-over driver, publish data that do not
+// fit together. It reads no clock itself.
 class Ros2Speaker {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  // Who is silent for longer is no longer waited for.
+  // A publisher that is silent for longer is no longer waited for.
   static constexpr std::chrono::milliseconds kSilent{2000};
-  // So long after both were heard there are two.
+  // The publishers count as several for so long after both were heard.
   static constexpr std::chrono::milliseconds kTold{3000};
 
-  // Whether what `writer` says counts; `there`: whether another one is still known to be there.
+  // Says whether data from `writer` count. `there` tells whether another writer is still known to
+  // exist.
   template <typename IsThere>
   [[nodiscard]] bool Hear(std::int64_t writer, Time now, const IsThere& there) {
     if (writer == heard_) {
-      // One that takes the place of another is not heard in between.
+      // A writer that takes over from another one does not alternate with it.
       if (other_at_ && *other_at_ > heard_at_) both_at_ = now;
     } else if (heard_at_ != Time() && now - heard_at_ <= kSilent && there(heard_)) {
       other_at_ = now;
@@ -31,7 +32,7 @@ class Ros2Speaker {
     heard_at_ = now;
     return true;
   }
-  // Several speak at once.
+  // Says whether several publish at once.
   [[nodiscard]] bool crowded(Time now) const { return both_at_ && now - *both_at_ <= kTold; }
 
  private:

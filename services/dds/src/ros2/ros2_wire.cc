@@ -13,10 +13,10 @@
 namespace trailcast::dds {
 namespace {
 
-// sensor_msgs/Imu: first in the covariance of what an IMU does not measure.
+// sensor_msgs/Imu has this first in the covariance of what an IMU does not measure.
 constexpr double kNotMeasured = -1.0;
 
-// IDL strings are mutable in C; nobody writes to these.
+// IDL texts are mutable in C, but nobody writes to these.
 template <std::size_t N>
 char* Text(std::array<char, N>& text) {
   return text.data();

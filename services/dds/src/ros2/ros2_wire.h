@@ -7,7 +7,7 @@
 
 #include "services/dds/ros2_link.h"
 
-// Between the messages of ros2_link.h and idl/ros2.idl's C types.
+// These convert between the messages of ros2_link.h and idl/ros2.idl's C types.
 namespace trailcast::dds {
 
 using UseSample = std::function<Result<void>(const void* sample)>;
@@ -30,9 +30,10 @@ using UseSample = std::function<Result<void>(const void* sample)>;
 [[nodiscard]] Result<void> WithRos2Wire(const Ros2Command& command, Ros2CommandType type,
                                         const UseSample& use);
 
-// Nothing: the sample holds numbers that are none, or a scan or range that can be no sensor's.
+// These return nothing if the sample has invalid numbers, or a scan or range that no sensor can
+// give.
 [[nodiscard]] Ros2Sensed ImageFromWire(const void* sample, bool compressed);
-// The error says which number, for people.
+// The error tells people which number is invalid.
 [[nodiscard]] Result<Ros2Odometry> OdometryFromWire(const void* sample);
 [[nodiscard]] std::optional<Ros2Scan> ScanFromWire(const void* sample);
 [[nodiscard]] std::optional<Ros2Range> RangeFromWire(const void* sample, std::size_t sensor);
