@@ -34,15 +34,15 @@ using Clock = std::chrono::steady_clock;
 // One Take returns at most so many samples of a topic, so that a flood does not starve the others.
 constexpr std::size_t kMaxSamplesPerTake = 1024;
 
-// How often the network and the keys' folder are looked at, and who is there.
+// The network, the keys' folder and the present members are checked this often.
 constexpr auto kLookEvery = std::chrono::seconds(1);
 
-// How soon joining is tried again: a name's address may be asked for in vain for seconds.
+// Joining is tried again this soon. Looking up a name's address may take seconds.
 constexpr auto kTriesAgain = std::chrono::seconds(1);
 constexpr auto kTriesAgainAtMost = std::chrono::seconds(8);
 
-// As long as others take to notice that one has ended: for those who were heard before this
-// exchange joined anew to be heard again.
+// Others take so long to notice that a member has ended. Members that were heard before this
+// exchange joined again have this time to be heard.
 constexpr auto kHeardAgain = std::chrono::seconds(10);
 constexpr std::size_t kMostHeard = 20'000;  // strangers can make up names
 
@@ -93,7 +93,7 @@ class DdsExchange : public exchange::RouteExchange {
   Result<void> OpenForSegmentsOf(const route::RouteKey& route);
   Result<void> OpenScopes(exchange::Topic topic);
   void TakeFrom(const Place& place, Reader& reader, std::vector<Message>& messages);
-  // Leaves what is of the routes that are listened to; false if nothing is.
+  // Keeps what belongs to routes that are listened to; returns false if nothing does.
   [[nodiscard]] bool KeepListenedTo(const Place& place, Message& message) const;
   void NoteWhoIsHeard(const Message& message);
   void SayGoodBye();
@@ -107,7 +107,7 @@ class DdsExchange : public exchange::RouteExchange {
 
   void LookAtPeers(Clock::time_point now);
 
-  // With keys.
+  // These are for exchanges with keys.
   void TakeUpNewKeys();
   void LeaveForNewKeys();
   void TakeRevocations();
@@ -120,29 +120,30 @@ class DdsExchange : public exchange::RouteExchange {
   exchange::TopicUse use_;
   std::optional<Joined> joined_;
   std::map<exchange::Topic, std::set<route::RouteKey>> listening_;
-  std::map<std::string, exchange::AgentStatus> said_;  // by instance: to be disposed at the end
+  std::map<std::string, exchange::AgentStatus> said_;  // by instance, to be disposed of at the end
   std::uint64_t dropped_ = 0;
   bool gathers_ = false;
-  std::set<Place> gathered_;  // writers with something to be flushed
-  Reminders reminders_;       // in a star
+  std::set<Place> gathered_;  // writers that have something to flush
+  Reminders reminders_;       // for a star
 
   NetworkWatch network_;
-  std::string line_;     // to be told of the network once it has joined
-  std::string why_not_;  // joining failed; empty: it did not
+  std::string line_;     // about the network, reported once it has joined
+  std::string why_not_;  // why joining failed; empty if it did not
   Clock::time_point try_at_{};
   Clock::duration tries_again_ = kTriesAgain;
   std::uint64_t joins_ = 0;
 
-  // By instance, and not gone since.
+  // The instances that were heard and are not gone.
   NewestMap<std::string, exchange::AgentGone> heard_{kMostHeard};
-  // Heard before this exchange left, and not since; until when they may be heard again.
+  // Members that were heard before this exchange left but not since, and until when they may be
+  // heard again.
   std::map<std::string, std::pair<exchange::AgentGone, Clock::time_point>> missing_;
-  std::vector<Message> gone_;  // to be told with the next Take
+  std::vector<Message> gone_;  // for the next Take
   StarOrMesh star_or_mesh_;
   Clock::time_point look_at_{};
 
   CycloneWarnings warnings_;
-  std::optional<KeysWatch> keys_watch_;  // with keys
+  std::optional<KeysWatch> keys_watch_;  // with keys only
   bool keys_changed_ = false;            // since it last joined
   StrangerWatch strangers_;
   VersionWatch versions_;
@@ -232,7 +233,7 @@ void DdsExchange::Leave() {
   heard_ = NewestMap<std::string, exchange::AgentGone>(kMostHeard);
 }
 
-// Who ended while this exchange joined anew would never be told gone.
+// Nobody else reports members that ended while this exchange joined again.
 void DdsExchange::TellWhoIsMissing(Clock::time_point now) {
   std::erase_if(missing_, [&](const auto& entry) {
     const auto& [gone, until] = entry.second;
@@ -274,7 +275,8 @@ Result<void> DdsExchange::Publish(const Message& message) {
   return Write(*topic, message);
 }
 
-// Who announces a route is soon asked for its segments, and shall be heard by then.
+// The announcer of a route is soon asked for its segments, so its writer must be discovered by
+// then.
 Result<void> DdsExchange::OpenForSegmentsOf(const route::RouteKey& route) {
   for (const exchange::Topic topic : use_.write) {
     if (!exchange::IsOfRoutes(topic)) continue;
@@ -289,8 +291,8 @@ Result<void> DdsExchange::Write(exchange::Topic topic, const Message& message) {
   const Place place{topic, route == nullptr ? kEverybody : ScopeOf(*route)};
   const auto writer = joined_->WriterIn(place, options_);
   if (!writer) return tl::unexpected(writer.error());
-  // Replies are an instance for each client, and clients that ask once come by the thousand: their
-  // instances would be kept for ever.
+  // Each client has an instance of replies. Clients that ask once come by the thousand, and their
+  // instances would stay for ever.
   const bool last_word = topic == exchange::Topic::kCatalogReplies;
   auto written = WithWire(message, [&](const void* sample) {
     auto done = gathers_ ? (*writer)->Gather(sample) : (*writer)->Write(sample);
@@ -319,8 +321,8 @@ void DdsExchange::Remind(Clock::time_point now) {
       [this](const Place& place) { joined_->writers.at(place).Remind(); });
 }
 
-// Until something comes, or somebody is to be reminded. A failed wait leaves nothing to take, and
-// is tried again with the next call.
+// Waits until something comes, or a reminder is due. A failed wait leaves nothing to take; the next
+// call tries again.
 bool DdsExchange::WaitForSamples(std::chrono::milliseconds max_wait) {
   const auto now = Clock::now();
   Remind(now);
@@ -340,7 +342,7 @@ std::vector<Message> DdsExchange::Take(std::chrono::milliseconds max_wait) {
   return messages;
 }
 
-// Scopes are shared, and who writes for everybody may have mixed routes in a batch.
+// Routes share scopes, and a batch written for everybody may have several routes.
 bool DdsExchange::KeepListenedTo(const Place& place, Message& message) const {
   if (place.scope == kEverybody) return true;
   const std::set<route::RouteKey>& listening = listening_.at(place.topic);
@@ -379,7 +381,8 @@ void DdsExchange::TakeFrom(const Place& place, Reader& reader, std::vector<Messa
         }
       });
   if (!taken) ++dropped_;
-  // Cyclone gives keyed samples key by key: back to the order in which they were sent.
+  // Cyclone delivers keyed samples key by key, so they are sorted back into the order in which they
+  // were sent.
   if (TypeOf(topic).m_nkeys > 0) {
     std::stable_sort(received.begin(), received.end(),
                      [](const Received& a, const Received& b) { return a.sent_at < b.sent_at; });
@@ -409,7 +412,7 @@ void DdsExchange::SayGoodBye() {
   auto& writers = joined_->writers;
   if (const auto agents = writers.find({exchange::Topic::kAgents}); agents != writers.end()) {
     for (const auto& [instance, status] : said_) {
-      // Best effort: without it the others notice when the lease is over.
+      // This is best effort: without it, the others notice when the lease is over.
       (void)WithWire(status, [&](const void* sample) { return agents->second.Dispose(sample); });
     }
   }
@@ -434,7 +437,7 @@ void DdsExchange::KeepWatch() {
   ShowNetworkState();
 }
 
-// Nobody is told good-bye: the way to them is gone, or soon another.
+// There is no good-bye, because the way to the others is gone, or soon changes.
 void DdsExchange::LookAtNetwork(Clock::time_point now) {
   const NetworkWatch::Step step = network_.Look(Interfaces(), now);
   if (step == NetworkWatch::Step::kNone) return;
@@ -478,7 +481,7 @@ void DdsExchange::TellOfNetwork(const std::string& line) {
 
 void DdsExchange::MeetOthers(Clock::time_point now) {
   const StarOrMesh::Step step = star_or_mesh_.Look(joined_->Look(), now);
-  // What is not heard now is said again.
+  // A call that fails is repeated later.
   if (step == StarOrMesh::Step::kCall) (void)joined_->participant.Call();
   if (step != StarOrMesh::Step::kJoinAnew) return;
   SayGoodBye();
@@ -516,11 +519,11 @@ void DdsExchange::TakeRevocations() {
   }
   if (!newer) return;
   LeaveForNewKeys();
-  look_at_ = {};  // to join anew with the next Take
+  look_at_ = {};  // the next Take joins again
 }
 
 void DdsExchange::LookAtPeers(Clock::time_point now) {
-  // What cannot be read now is there the next time.
+  // What cannot be read now will be read the next time.
   (void)joined_->peers.Look({.seen =
                                  [&](const auto& participant, const auto& said) {
                                    arrivals_.See(participant, said.address);
