@@ -14,12 +14,12 @@
 
 namespace trailcast::agent {
 
-// Lets people look through the robot's camera. The thread that drives hands over a copy of a frame
-// when one is wanted, and waits for nothing; one of this object's own, which gives way to others,
-// draws and encodes it; the one that owns the exchange hears who asks, and answers.
+// Lets people look through the robot's camera. The driving thread hands over a copy of a frame when
+// one is wanted, and never waits. A thread of this object, with a low priority, draws on it and
+// encodes it. The thread that owns the exchange takes requests and answers them.
 class Glances {
  public:
-  // A picture is encoded ever more coarsely until it has no more bytes.
+  // A picture is encoded more and more coarsely until it is no larger.
   static constexpr std::size_t kMostBytes = 12U << 10U;
 
   explicit Glances(AgentId self);
@@ -27,15 +27,15 @@ class Glances {
   Glances(const Glances&) = delete;
   Glances& operator=(const Glances&) = delete;
 
-  // The same exchange, or null; while messages are taken from it, glances are served. This outlives
-  // it.
+  // Returns the same exchange, or null. Requests for snapshots are served while messages are taken
+  // from it. This object must outlive it.
   [[nodiscard]] std::unique_ptr<exchange::RouteExchange> Through(
       std::unique_ptr<exchange::RouteExchange> exchange);
 
-  // The driving thread's. True once for each picture that is wanted.
+  // Returns true once for each picture that is wanted. The driving thread calls it.
   [[nodiscard]] bool wanted() { return wanted_.load(std::memory_order_relaxed) && TakeWanted(); }
   void Show(GlanceFrame frame) { HandOver(std::move(frame)); }
-  // Of a robot that does not drive.
+  // Serves a robot that does not drive.
   void ShowIfWanted(RobotDevice& device);
 
  private:
@@ -50,14 +50,14 @@ class Glances {
   [[nodiscard]] CameraPicture Painted(const Item& item);
   [[nodiscard]] CameraPicture Encode(const GlanceFrame& frame);
 
-  GlanceDesk desk_;  // the exchange's thread's
+  GlanceDesk desk_;  // for the exchange's thread
 
   std::atomic<bool> wanted_{false};
   Mailbox<Item> frames_{2};
   Mailbox<CameraPicture> pictures_{2};
   Bell handed_over_;
 
-  int quality_;  // the painting thread's, as that
+  int quality_;  // for the painting thread, as the next member
   std::atomic<bool> ending_{false};
   std::thread thread_;
 };

@@ -17,7 +17,7 @@ constexpr std::chrono::hours kGlanceWakeUp{1};  // unless something was handed o
 constexpr int kBestQuality = 70;
 constexpr int kWorstQuality = 10;
 constexpr int kQualityStep = 10;
-// What is left of the bytes is worth a better picture the next time.
+// A picture this small leaves room for a better quality the next time.
 constexpr std::size_t kFewBytes = Glances::kMostBytes * 2 / 3;
 constexpr int kNiceness = 10;
 
@@ -78,7 +78,7 @@ void Glances::ShowIfWanted(RobotDevice& device) {
 }
 
 void Glances::HandOver(Item item) {
-  // Full: those before it do as well.
+  // If the queue is full, the frames before this one will do.
   (void)frames_.TryPut(std::move(item));
   handed_over_.Ring();
 }
@@ -92,7 +92,7 @@ void Glances::Serve(exchange::RouteExchange& exchange, Time now) {
     wanted_ = false;
     answer = desk_.Give({.detail = kNoPicture}, now);
   }
-  // What cannot be handed over is asked for again.
+  // An answer that cannot be sent is asked for again.
   if (answer) (void)exchange.Publish(*answer);
   if (desk_.Asks(now)) wanted_ = true;
 }
@@ -106,7 +106,7 @@ void Glances::Paint() {
       auto painted = Guarded("the thread that draws what the camera sees",
                              [&]() -> Result<CameraPicture> { return Painted(*item); });
       CameraPicture picture = painted.value_or(CameraPicture{.detail = kNoPicture});
-      // Full: nobody takes them, so nobody waits for them.
+      // If the queue is full, nobody takes the pictures and nobody waits for them.
       (void)pictures_.TryPut(std::move(picture));
     }
   }
