@@ -7,9 +7,10 @@
 
 namespace trailcast::agent {
 
-// Brings a route into the agent's own store without following it, so that it is there when an
-// operator activates it, and out of reach of a server. Ends when all of it is there; kUnavailable
-// when nothing new has come for `options.wait`, or `options.stop` says so: what came is kept.
+// Fetches a route into the agent's own store without following it, so that the robot has it when an
+// operator activates it and where no server is in reach. It ends when the route is complete.
+// kUnavailable means that nothing new came for `options.wait`, or that `options.stop` ended it; the
+// part that came is kept.
 [[nodiscard]] Result<Summary> Fetch(const FollowerLinkOptions& options,
                                     std::unique_ptr<store::RouteStore> store,
                                     std::unique_ptr<exchange::RouteExchange> exchange);

@@ -18,12 +18,12 @@ using std::chrono::steady_clock;
 constexpr milliseconds kFetchWakeUp{200};
 constexpr std::chrono::seconds kTellEvery{2};
 
-// What has come so far.
+// Counts what has come so far.
 class Fetching {
  public:
   explicit Fetching(const FollowerLinkOptions& options) : options_(options) {}
 
-  // True when all of it is there.
+  // Returns true when the route is complete.
   Result<bool> Take(FollowerLink& link) {
     while (auto item = link.TryTake()) {
       news_at_ = steady_clock::now();
@@ -39,7 +39,7 @@ class Fetching {
     fetched_ = link.fetched();
     held_ = link.held_before() + fetched_;
     if (options_.stop()) return Fail(ErrorCode::kUnavailable, "stopped by a signal; {}", SoFar());
-    // Before the first news the link has bounds of its own, and says more precisely what fails.
+    // Before the first news, the link has bounds of its own and says more precisely what fails.
     if (announced_ > 0 && steady_clock::now() - news_at_ > options_.wait) {
       return Fail(ErrorCode::kUnavailable, "nothing came for {:.0f} s; {}", Seconds(options_.wait),
                   SoFar());
@@ -66,7 +66,7 @@ class Fetching {
   const FollowerLinkOptions& options_;
   std::uint32_t announced_ = 0;
   std::uint32_t fetched_ = 0;  // by this run
-  std::uint32_t held_ = 0;     // now, those of earlier runs included
+  std::uint32_t held_ = 0;     // at present, including those of earlier runs
   std::optional<FetchEstimate> estimate_;
   steady_clock::time_point news_at_ = steady_clock::now();
   steady_clock::time_point told_at_ = news_at_;

@@ -7,8 +7,8 @@
 
 namespace trailcast::agent {
 
-// How long a fetch will take, from what came lately: a link that has become slower or was cut for a
-// while is judged by what it does now.
+// Estimates how long a fetch will take. It goes by recent progress, so that a link that became
+// slower or was cut for a while is judged by its present speed.
 class FetchEstimate {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -16,13 +16,13 @@ class FetchEstimate {
 
   explicit FetchEstimate(Time began) : marks_{{began, 0}} {}
 
-  // So many segments have come since the beginning; what was held before it does not count.
+  // Notes that so many segments have come since the beginning, without those that were held before.
   void Note(Time now, std::uint32_t fetched) {
     marks_.push_back({now, fetched});
     while (marks_.size() > 2 && marks_[1].at <= now - kLately) marks_.pop_front();
   }
 
-  // For so many segments more; empty if none came lately.
+  // Returns the time for so many more segments, or nothing if none came lately.
   [[nodiscard]] std::optional<std::chrono::duration<double>> Left(std::uint32_t missing) const {
     const Mark& from = marks_.front();
     const Mark& to = marks_.back();
