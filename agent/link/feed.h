@@ -8,9 +8,9 @@
 
 namespace trailcast::agent {
 
-// What a link gives the control loop of a route, in this order: the route, where the robot was left
-// on it, or comes onto it (if it does), its segments, that it is complete (or that no more can be
-// had); or why there will be nothing more.
+// The items that a link gives the control loop, in this order: the route; where the robot was left
+// on it or comes onto it, if it does; its segments; and that it is complete, or that no more of it
+// can be had. An error says why nothing more will come.
 struct RouteComplete {};
 using Feed =
     std::variant<std::monostate, route::RouteInfo, LeftAt, route::Segment, RouteComplete, Error>;

@@ -13,30 +13,31 @@
 
 namespace trailcast::agent {
 
-// How a robot has followed each stretch of its routes (exchange::kFollowedStretch_m), until servers
-// are told: how often it came over it, and how often it lost its path there, found again or not.
+// Counts how a robot has followed each section of its routes (exchange::kFollowedStretch_m) until
+// servers are told: how often it passed the section, and how often it lost its path there, whether
+// or not it found it again.
 //
-// It counts from when the robot was sure of its path. What has it stand for another reason (its
-// camera, people, other robots) is no fault of the stretch. No clock.
+// It counts once the robot was sure of its path. A stop for another reason (its camera, people,
+// other robots) is not the section's fault. It has no clock.
 class FollowedNote {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kEvery{10};
-  // A robot that is so much further back has come anew.
+  // A robot that is so much further back has come again.
   static constexpr double kBack_m = 1.0;
-  // While nobody hears it: 20 km of routes. Of more, what was driven last is kept.
+  // The bound while nobody hears it: 20 km of routes. The sections that were driven last are kept.
   static constexpr std::size_t kMostStretches = 4096;
 
   explicit FollowedNote(AgentId agent) : agent_(std::move(agent)) {}
 
-  // Of a robot that was set down where it is.
+  // Begins with a robot that was set down where it is.
   void Begin();
-  // What became of a frame on the route.
+  // Notes the outcome of a frame on the route.
   void Note(const ReplayStep& step, const route::RouteInfo& route);
 
-  // Publishes all that is to be told; what cannot be handed over is kept.
+  // Publishes all that is to be reported, and keeps what cannot be sent.
   void Tell(exchange::RouteExchange& to);
-  // The same, every kEvery.
+  // Does the same, every kEvery.
   void TellIfDue(exchange::RouteExchange& to, Clock::time_point now);
 
  private:
@@ -45,11 +46,11 @@ class FollowedNote {
     std::uint32_t passed = 0;
     std::uint32_t lost = 0;
   };
-  // The stretch where it is.
+  // The section where the robot is.
   struct Visit {
     Where where{};
     double furthest_m = 0.0;
-    bool lost = false;  // and is counted
+    bool lost = false;  // the loss is counted
   };
   void Leave();
   void Add(const Where& where, Count more);
@@ -58,7 +59,7 @@ class FollowedNote {
 
   AgentId agent_;
   std::optional<Visit> visit_;
-  bool on_path_ = false;  // it was sure of it, and has lost it in no way since
+  bool on_path_ = false;  // it was sure of its path, and has not lost it since
   NewestMap<Where, Count> counts_{kMostStretches};
   Clock::time_point due_{};
 };

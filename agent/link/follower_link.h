@@ -36,30 +36,32 @@ struct FollowerLinkOptions {
   exchange::RevisionChoice revision{};
   std::string store_file;            // for messages
   bool wait_for_route = false;       // a route that nobody knows yet may still be taught
-  std::filesystem::path place_file;  // where it is noted how far the robot got; empty: nowhere
+  std::filesystem::path place_file;  // the file that notes how far the robot got; empty for none
   bool from_start = false;           // whatever was noted
-  std::filesystem::path stop_file;   // where an operator's stop is kept; empty: nowhere
-  double begin_m = 0.0;  // how far along the route the robot is set down; whatever was noted
-  // Of an agent that follows many routes: its process in the fleet, which has claimed the name, and
-  // what operators have told it and what it is to tell of how it followed, which outlive the link.
-  // 0 and null: this link is all there is.
+  std::filesystem::path stop_file;   // the file that keeps an operator's stop; empty for none
+  double begin_m = 0.0;  // how far along the route the robot is set down, whatever was noted
+  // These belong to an agent that follows many routes, and outlive the link: its process, which has
+  // claimed the name in the fleet; operators' commands; and its counts of how it followed. With 0
+  // and null, the link has its own.
   std::uint64_t instance = 0;
   NowDesk* now_desk = nullptr;
   FollowedNote* followed_note = nullptr;
-  std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };  // the link's thread
-  bool notes_followed = true;   // how it follows tells how well the route's stretches are followed
-  bool feeds_segments = true;   // false: nobody drives, the segments are stored and not read back
-  bool hears_operators = true;  // false: there is nothing that could be held
-  // How long the agent waits for a server, the route, or the next segment, while none comes.
+  // called by the link's thread
+  std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };
+  bool notes_followed = true;   // this drive counts for how well the route's sections are followed
+  bool feeds_segments = true;   // false if nobody drives; segments are then stored, but not read
+                                // back
+  bool hears_operators = true;  // false if there is nothing that could be stopped
+  // How long the agent waits for a server, the route, or the next segment while none comes.
   std::chrono::milliseconds wait{30'000};
-  std::function<bool()> stop = [] { return false; };  // any thread
+  std::function<bool()> stop = [] { return false; };  // called by any thread
 };
 
-// The follower's other half: a thread that owns store and exchange, finds the route, fetches into
-// the own store what is missing, and feeds the control loop from there.
+// The follower's other half: a thread that owns the store and the exchange, finds the route,
+// fetches missing segments into the own store, and feeds the control loop from there.
 class FollowerLink {
  public:
-  // `exchange` may be null: then the route comes from the own store alone.
+  // `exchange` may be null; the route then comes from the own store alone.
   FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::RouteStore> store,
                std::unique_ptr<exchange::RouteExchange> exchange);
   ~FollowerLink();
@@ -69,36 +71,39 @@ class FollowerLink {
   // Claims the name, then starts the thread.
   [[nodiscard]] Result<void> Start();
 
-  // For the control loop. Neither takes a lock nor waits.
+  // Both are for the control loop, and neither takes a lock nor waits.
   [[nodiscard]] std::optional<Feed> TryTake() { return feed_.TryGet(); }
   void Report(const ReplayStep& step);
-  // Of the route's segments, those that were in the own store when the fetching began, and those
-  // that came since. Any thread.
+  // Return how many of the route's segments were in the own store when fetching began, and how many
+  // came since. Any thread may call them.
   [[nodiscard]] std::uint32_t held_before() const { return held_before_; }
   [[nodiscard]] std::uint32_t fetched() const { return fetched_; }
-  // Who else is on the route, whenever that has changed. Nothing before the route was fed.
+  // Returns the other robots on the route whenever they have changed; nothing before the route was
+  // fed.
   [[nodiscard]] std::optional<std::vector<Neighbour>> TryTakeNeighbours() {
     return told_neighbours_.TryGet();
   }
-  // How operators have the robot stand, whenever that has changed; before the route is fed, if an
-  // earlier run was stopped.
+  // Returns the operators' hold on the robot whenever it has changed. If an earlier run was
+  // stopped, it comes before the route.
   [[nodiscard]] std::optional<Hold> TryTakeHold() { return told_hold_.TryGet(); }
-  // Another route, to be had ready besides, once all of this one is here; instead of the one wished
-  // for before. False: it does not hear that now.
+  // Asks for another route to be kept ready, once all of this one is here. It replaces the last
+  // wish. False means that the link cannot hear it now.
   [[nodiscard]] bool Wish(RouteWish wish) { return wishes_.TryPut(std::move(wish)); }
   struct AheadFeed {
     std::uint32_t wish = 0;  // its number
     Feed item{};
   };
   [[nodiscard]] std::optional<AheadFeed> TryTakeAhead() { return ahead_feed_.TryGet(); }
-  // While the robot stands: waits until something was fed, others have moved, or `at_most`.
+  // Waits, while the robot stands, until something was fed, others have moved, or `at_most` is
+  // over.
   void WaitForNews(std::chrono::milliseconds at_most) { fed_.Wait(at_most); }
 
   // Ends the thread.
   void Finish();
-  // The last status peers see, and what the next run is told. After Finish.
+  // Publishes the last status that peers see, and notes the place for the next run. Only after
+  // Finish.
   void Close(exchange::AgentMode mode, const std::string& detail);
-  // As far as it is known. After Finish.
+  // Returns the route as far as it is known. Only after Finish.
   [[nodiscard]] const std::optional<route::RouteInfo>& route() const { return route_; }
 
  private:
@@ -114,7 +119,7 @@ class FollowerLink {
   [[nodiscard]] Result<void> Follow();
   void Trade();
   [[nodiscard]] Result<void> Listen(Time now);
-  void Say(Time now);  // what the fetcher or the finder, and whoever lends, have to say
+  void Say(Time now);  // publishes what the fetcher or the finder and the peer server have to say
   [[nodiscard]] Result<void> StoreArrived();
   [[nodiscard]] Result<void> DropWrong(std::uint32_t count);
   [[nodiscard]] Result<void> StoreNews();
@@ -134,7 +139,7 @@ class FollowerLink {
   void TellNeighbours(Time now);
   void HearOperators(const exchange::Message& message);
   void AnswerOperators();
-  [[nodiscard]] bool TellHold();  // false: not yet
+  [[nodiscard]] bool TellHold();  // false if the loop cannot take it yet
   [[nodiscard]] bool over() const { return ending_.load() || options_.stop(); }
 
   FollowerLinkOptions options_;
@@ -142,29 +147,29 @@ class FollowerLink {
   std::unique_ptr<exchange::RouteExchange> exchange_;
   std::optional<program::Presence> presence_;
   exchange::RouteFinder finder_;
-  std::optional<route::RouteInfo> route_;   // the newest that is known of it
-  std::optional<route::RouteInfo> stored_;  // what of that is in the own store
+  std::optional<route::RouteInfo> route_;   // the newest version known
+  std::optional<route::RouteInfo> stored_;  // the version in the own store
   std::optional<exchange::RouteFetcher> fetcher_;
   std::unique_ptr<RouteAhead> ahead_;
   exchange::SpareHolder spare_;
   PlaceNote place_note_;
-  std::optional<NotedPlace> place_;  // the last that the robot was sure of
-  std::optional<Time> noted_;        // when
+  std::optional<NotedPlace> place_;  // the last one of which the robot was sure
+  std::optional<Time> noted_;        // when that was noted
   Neighbours neighbours_;
-  std::vector<Neighbour> told_;      // to the control loop
-  std::optional<NowDesk> own_desk_;  // unless it was lent one
+  std::vector<Neighbour> told_;      // what the control loop knows
+  std::optional<NowDesk> own_desk_;  // unless it was given one
   NowDesk& now_desk_;
   FollowedNote own_note_;  // likewise
   FollowedNote& followed_note_;
-  Hold hold_told_;  // to the control loop
+  Hold hold_told_;  // what the control loop knows
   std::vector<route::RouteKey> held_revisions_;
   std::uint32_t held_ = 0;         // segments in the own store without a gap
-  std::set<SegmentIndex> beyond_;  // those after the first gap
+  std::set<SegmentIndex> beyond_;  // segments after the first gap
   std::uint32_t next_feed_ = 0;
   std::atomic<std::uint32_t> held_before_ = 0;
   std::atomic<std::uint32_t> fetched_ = 0;
   bool fed_all_ = false;
-  bool dropped_wrong_ = false;  // once is enough: then it is whoever sends them
+  bool dropped_wrong_ = false;  // once is enough: after that, their senders are to blame
   std::string waiting_for_ = "starting";
   std::optional<AgentId> told_server_;
 

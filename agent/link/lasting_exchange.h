@@ -11,19 +11,19 @@
 
 namespace trailcast::agent {
 
-// One membership of the network for an agent that follows many routes, one after the other: each
-// following is a visit, which hears at first what a late joiner would.
+// One membership of the network for an agent that follows many routes, one after the other. Each
+// route is a visit, which at first hears what a late joiner would hear.
 class LastingExchange {
  public:
-  // Strangers can make up routes and names: more samples are not remembered.
+  // Strangers can make up routes and names, so no more samples are remembered.
   static constexpr std::size_t kMostRemembered = 20'000;
 
   explicit LastingExchange(std::unique_ptr<exchange::RouteExchange> exchange)
       : exchange_(std::move(exchange)) {}
 
-  // The agent itself, which goes on through all visits. Called by whoever takes messages, in that
-  // thread: each message that comes in, then that it is time to say something, and the statuses
-  // that a visit publishes.
+  // The agent itself, which continues through all visits. The thread that takes messages calls
+  // `hear` for each message, `speak` when it is time to say something, and then the rest for the
+  // statuses that a visit publishes.
   struct Tending {
     std::function<void(const exchange::Message&)> hear;
     std::function<void(exchange::RouteExchange&)> say;
@@ -31,11 +31,11 @@ class LastingExchange {
   };
   void Tend(Tending tending) { tending_ = std::move(tending); }
 
-  // Everything heard, while there is no visit.
+  // Returns everything heard while there is no visit.
   [[nodiscard]] std::vector<exchange::Message> Take(std::chrono::milliseconds max_wait);
   [[nodiscard]] exchange::RouteExchange& exchange() { return *exchange_; }
 
-  // One at a time; this outlives it.
+  // Begins a visit. There is one at a time, and this object must outlive it.
   [[nodiscard]] std::unique_ptr<exchange::RouteExchange> Visit();
 
  private:
@@ -45,7 +45,7 @@ class LastingExchange {
 
   std::unique_ptr<exchange::RouteExchange> exchange_;
   Tending tending_;
-  // Of each instance the last (exchange::InstanceOf).
+  // The last sample of each instance (exchange::InstanceOf).
   NewestMap<std::string, exchange::Message> remembered_{kMostRemembered};
 };
 

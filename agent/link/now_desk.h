@@ -13,33 +13,33 @@
 
 namespace trailcast::agent {
 
-// Takes what operators tell this robot to do now, obeys each command once however often it comes,
-// and answers it each time. No clock of its own.
+// Handles operators' immediate commands to this robot. It obeys each command once, however often it
+// comes, and answers it each time. It has no clock of its own.
 class NowDesk {
  public:
-  // Strangers can make commands up: more are not remembered.
+  // Strangers can make up commands, so no more are remembered.
   static constexpr std::size_t kMostCommands = 1024;
 
   NowDesk(AgentId self, std::filesystem::path stop_file)
       : self_(std::move(self)), hold_(std::move(stop_file)) {}
 
-  // A stop that an earlier run has left.
+  // Loads a stop that an earlier run has left.
   void Load() { hold_.Load(); }
-  // As OperatorHold has them.
+  // These are OperatorHold's.
   void Pause(std::string text) { hold_.Pause(std::move(text)); }
   void ForgetCancelled() { hold_.ForgetCancelled(); }
   void Teaches(bool teaches) { hold_.Teaches(teaches); }
   void Works(bool works) { hold_.Works(works); }
 
-  // `route`: the name of the one that the robot is on. `unix_ms`: now, by the robot's clock.
+  // `route` is the name of the robot's present route; `unix_ms` is the time by the robot's clock.
   void Handle(const exchange::Message& message, const std::string& route, std::int64_t unix_ms);
 
-  // To be published.
+  // Returns messages to publish.
   [[nodiscard]] std::vector<exchange::Message> TakeAnswers() { return std::exchange(answers_, {}); }
-  // What was obeyed since the last call, a line each for the log.
+  // Returns lines for the log about the commands obeyed since the last call.
   [[nodiscard]] std::vector<std::string> TakeNews() { return std::exchange(news_, {}); }
   [[nodiscard]] const Hold& hold() const { return hold_.hold(); }
-  // The same as the agent's status has it.
+  // Returns the same as the agent's status shows it.
   [[nodiscard]] exchange::AgentHold shown_hold() const;
 
  private:
@@ -47,7 +47,7 @@ class NowDesk {
 
   AgentId self_;
   OperatorHold hold_;
-  // To each command, by its client and number.
+  // The answers, by the command's client and number.
   NewestMap<std::pair<AgentId, std::uint64_t>, exchange::NowAnswer> given_{kMostCommands};
   std::vector<exchange::Message> answers_;
   std::vector<std::string> news_;

@@ -10,46 +10,48 @@
 
 namespace trailcast::agent {
 
-// How an operator has a robot stand.
+// How an operator keeps a robot standing.
 struct Hold {
   enum class Kind { kNone, kPaused, kStopped };
   Kind kind = Kind::kNone;
-  bool cancelled = false;  // what the robot does is over
-  bool ended = false;      // what it teaches is complete
-  std::string text{};      // for people: "paused by desk: somebody walks here"; empty: it may drive
+  bool cancelled = false;  // the robot's present work is cancelled
+  bool ended = false;      // its teaching is to be completed
+  std::string text{};      // for people: "paused by desk: somebody walks here"; empty if it may
+                           // drive
   bool operator==(const Hold&) const = default;
 };
 
-// What operators' words make of a robot. A stop outlasts its agent and its computer, in a file
-// beside the store, until an operator releases it; nothing but a word to resume lets a robot drive
+// Applies operators' commands to a robot. A stop outlasts the agent and its computer, in a file
+// beside the store, until an operator releases it. Only a command to resume lets a robot drive
 // again.
 class OperatorHold {
  public:
-  // Empty: a stop is not kept.
+  // Without a file, a stop is not kept.
   explicit OperatorHold(std::filesystem::path file) : file_(std::move(file)) {}
 
-  // A stop that an earlier run has left. A file that cannot be read is one, too.
+  // Loads a stop that an earlier run has left. A file that cannot be read counts as one, too.
   void Load();
 
   struct Obeyed {
     bool refused = false;
-    std::string detail{};  // for people: how the robot is now, or why not
+    std::string detail{};  // for people: the robot's state, or why the command was refused
   };
-  // `by`: who said it, for people. `unix_ms`: when, by the robot's clock.
+  // `by` is the operator, for people; `unix_ms` is the time by the robot's clock.
   [[nodiscard]] Obeyed Obey(const exchange::NowCommand& command, const std::string& by,
                             std::int64_t unix_ms);
 
-  // The robot stands until it is told to resume, and why; one that stands already goes on standing.
+  // Makes the robot stand for the reason in `text` until it is told to resume. A robot that is held
+  // already stays so.
   void Pause(std::string text);
-  // What was cancelled is over: what comes next is not.
+  // Ends a cancellation: it is not for what comes next.
   void ForgetCancelled() { hold_.cancelled = false; }
-  // Whether there is a teaching to be ended, which is not yet.
+  // Tells whether there is a teaching that an operator can end.
   void Teaches(bool teaches) {
     teaches_ = teaches;
     hold_.ended = false;
   }
 
-  // Whether there is something that can be cancelled.
+  // Tells whether there is something that an operator can cancel.
   void Works(bool works) { works_ = works; }
 
   [[nodiscard]] const Hold& hold() const { return hold_; }

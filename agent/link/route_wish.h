@@ -7,12 +7,12 @@
 
 namespace trailcast::agent {
 
-// Which route a control loop wants to have ready beside the one that it follows.
+// The route that a control loop wants to have ready beside the present one.
 struct RouteWish {
-  std::uint32_t number = 0;  // of its wishes, from 1; what is fed says which it is of
+  std::uint32_t number = 0;  // number of the wish, from 1; each item fed for it has it
   std::string route;         // name, or an id or its beginning
   exchange::RevisionChoice revision{};
-  double begin_m = 0.0;  // how far along it the robot will come onto it
+  double begin_m = 0.0;  // how far along the route the robot will come onto it
 };
 
 }  // namespace trailcast::agent

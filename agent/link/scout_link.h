@@ -17,89 +17,95 @@
 
 namespace trailcast::agent {
 
-// What the control loop tells of itself, a frame at a time.
+// The control loop's report on itself, frame by frame.
 struct TeachingNow {
   std::optional<double> drive_progress;
-  double along_m = 0.0;  // taught by this drive, with the segment under way
+  double along_m = 0.0;  // taught by this drive, including the segment under way
   double speed_mps = 0.0;
   int features = 0;
-  std::string stands;  // why the robot had to be stopped, one line for people; empty: it was not
+  std::string stands;  // why the robot had to be stopped, in one line for people; empty if it was
+                       // not
 };
 
 struct ScoutLinkOptions {
   AgentId agent;
   std::string store_file;  // for messages
   std::chrono::milliseconds delivery_timeout{30'000};
-  // After a signal the process shall end soon.
+  // A process that received a signal must end soon.
   std::chrono::milliseconds delivery_timeout_when_stopped{3'000};
-  std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };  // the link's thread
-  std::function<bool()> stop = [] { return false; };                           // any thread
-  // Of an agent on duty: its process in the fleet, which has claimed the name (0: this link is all
-  // there is), and what its statuses say besides, asked in the link's thread.
+  // called by the link's thread
+  std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };
+  std::function<bool()> stop = [] { return false; };  // called by any
+                                                      // thread
+  // These belong to an agent that waits for missions: its process, which has claimed the name in
+  // the fleet (with 0, the link has its own), and additions to its statuses, which the link's
+  // thread asks for.
   std::uint64_t instance = 0;
   std::function<void(exchange::AgentStatus&)> besides = [](exchange::AgentStatus&) {};
 };
 
-// The scout's other half: a thread that owns store and exchange, writes each segment down, then
-// sends it, and waits for receipts at the end. The control loop gives it segments and never waits.
+// The scout's other half: a thread that owns the store and the exchange, writes each segment to
+// disk, then sends it, and waits for acknowledgements at the end. The control loop hands it
+// segments and never waits.
 class ScoutLink {
  public:
-  // `exchange` may be null: then segments are only stored.
+  // `exchange` may be null; segments are then only stored.
   ScoutLink(ScoutLinkOptions options, std::unique_ptr<store::RouteStore> store,
             std::unique_ptr<exchange::RouteExchange> exchange);
-  ~ScoutLink();  // Close() if that was not called
+  ~ScoutLink();  // calls Close() if nobody did
   ScoutLink(const ScoutLink&) = delete;
   ScoutLink& operator=(const ScoutLink&) = delete;
 
-  // The newest teaching of this route by this agent, if it was cut off and not given up since.
+  // Returns this agent's newest teaching of the route if it was cut off and not given up since.
   [[nodiscard]] Result<std::optional<route::RouteInfo>> FindCutOff(const std::string& route);
-  // Where it ends.
+  // Returns the segment with which it ends.
   [[nodiscard]] Result<route::Segment> LastSegment(const route::RouteInfo& cut_off);
-  // What becomes of it; before Open. Without either it is kept as it is, and sent.
+  // Decide, before Open, what becomes of it. Without either it is kept as it is, and sent.
   [[nodiscard]] Result<void> Discard(const route::RouteInfo& cut_off);
   void Spare(const route::RouteInfo& cut_off) { outbox_.Spare(cut_off.key); }  // for StartFrom
 
-  // Claims the name and takes up what earlier runs left. Before Start.
+  // Claims the name and takes up what earlier runs left. Only before Start.
   [[nodiscard]] Result<void> Open();
-  // Starts the thread. `route` is what is to be taught (none: only the backlog is delivered); it
-  // begins with its first segment. Its route is the one of this name, or whose id begins so, in
-  // the store, its teaching a new one. kConflict where several are.
+  // Starts the thread. `route` is to be taught, beginning with its first segment; without it, only
+  // the backlog is delivered. Its route is the stored one of this name, or whose id begins so, and
+  // its teaching is new. kConflict means that several routes match.
   [[nodiscard]] Result<void> Start(std::optional<route::RouteInfo> route);
-  // The same to go on with a teaching that was cut off.
+  // Starts the thread to continue a teaching that was cut off.
   [[nodiscard]] Result<void> StartFrom(const route::RouteInfo& cut_off);
-  // Of the first segment that is to come. After Start.
+  // Returns the index of the next segment. Only after Start.
   [[nodiscard]] SegmentIndex first_index() const {
     return SegmentIndex(planned_ ? planned_->segment_count : 0);
   }
 
-  // From the control loop. False: the disk does not keep up, or failed; see Finish.
+  // Takes a segment from the control loop. False means that the disk does not keep up, or failed;
+  // see Finish.
   [[nodiscard]] bool Offer(route::Segment segment);
-  // The same: what was offered so far is void, and discarded; what comes next is another teaching
-  // of the route, by pictures of this size. Of one that began with Start.
+  // Discards what the control loop has offered so far. What follows is another teaching of the
+  // route, with pictures of this size. Only for one that began with Start.
   [[nodiscard]] bool BeginAnew(int width_px, int height_px);
   void Report(const TeachingNow& now);
-  // The store failed: teaching is of no use any more.
+  // Says whether the store failed, so that teaching is pointless.
   [[nodiscard]] bool failed() const { return failed_.load(); }
 
   struct Outcome {
     std::optional<route::RouteInfo> route;  // as it is on disk; nothing if no segment was taught
     std::size_t unreceipted = 0;
     bool delivered = false;  // nothing is left to be sent
-    // What a server says that the route is to operators; nothing if none has.
+    // The route's state by a server, if one has told it.
     std::optional<exchange::StandingThere> standing;
-    std::optional<std::string> refusal;  // why a server takes nothing, if one said so
-    // Of earlier runs, and all on a server now; with what that says of each.
+    std::optional<std::string> refusal;  // why a server refuses the route, if one does
+    // Routes of earlier runs that are now completely on a server, with their states there.
     std::vector<std::pair<route::RouteInfo, exchange::StandingThere>> earlier;
   };
   enum class Ending : std::uint8_t {
     kComplete,
-    kCutOff,   // something on the way kept the route from its end
-    kDiscard,  // it is not wanted
+    kCutOff,   // something kept the route from being completed
+    kDiscard,  // nobody wants it
   };
-  // No segment will follow: completes the route, waits for receipts, ends the thread. The error is
-  // the store's, if it failed.
+  // Completes the route, waits for acknowledgements and ends the thread. The error is the store's,
+  // if that failed.
   [[nodiscard]] Result<Outcome> Finish(Ending ending = Ending::kComplete);
-  // The last status peers see. After Finish.
+  // Publishes the last status that peers see. Only after Finish.
   void Close(exchange::AgentMode mode, const std::string& detail);
 
  private:
@@ -110,7 +116,7 @@ class ScoutLink {
   void Run();
   [[nodiscard]] Result<void> Work();
   [[nodiscard]] Result<void> Step();
-  // One of the two.
+  // One of the two is set.
   struct Offered {
     std::optional<route::Segment> segment;
     struct Anew {
@@ -139,7 +145,7 @@ class ScoutLink {
   Outbox outbox_;
   std::optional<program::Presence> presence_;
   std::optional<route::RouteInfo> planned_;
-  std::optional<route::RouteKey> key_;  // of the route taught, once it has a segment
+  std::optional<route::RouteKey> key_;  // of the taught route, once it has a segment
   std::chrono::steady_clock::time_point opened_{};
   std::optional<AgentId> told_server_;
   std::optional<std::chrono::steady_clock::time_point> server_heard_at_;
@@ -155,7 +161,7 @@ class ScoutLink {
   std::atomic<bool> ending_{false};
   std::atomic<Ending> how_{Ending::kComplete};
   std::atomic<bool> failed_{false};
-  std::optional<Error> error_;  // written by the thread, read after it ended
+  std::optional<Error> error_;  // the thread writes it; others read it after the thread has ended
   std::thread thread_;
 };
 

@@ -8,8 +8,9 @@
 
 namespace trailcast::agent {
 
-// Fetches what of a revision is not among `held`, which is in the own store. What the store's other
-// revisions of that route have is taken from there. `store` outlives it.
+// Returns a fetcher for the segments of a revision that are not among `held`, which are in the own
+// store. It copies segments from the store's other revisions of that route if they have them.
+// `store` must outlive it.
 [[nodiscard]] Result<exchange::RouteFetcher> FetcherFor(
     const AgentId& self, const route::RouteKey& key,
     const std::vector<exchange::RouteFetcher::Held>& held, store::RouteStore& store,

@@ -38,7 +38,7 @@ OnPath OnPathIn(const ReplayStep& step) {
   return OnPath::kNotSaid;
 }
 
-// Whoever is a little beyond the end of a route is on its last stretch.
+// A robot a little beyond the end of a route is on its last section.
 std::uint32_t NumberAt(double along_m, const route::RouteInfo& route) {
   double number = std::floor(std::max(0.0, along_m) / exchange::kFollowedStretch_m);
   if (route.state == route::RouteState::kComplete && route.length_m > 0.0) {
@@ -83,7 +83,7 @@ void FollowedNote::Note(const ReplayStep& step, const route::RouteInfo& route) {
   on_path_ = false;
 }
 
-// A robot that only stood there has not come over it.
+// A robot that only stood in a section did not pass it.
 void FollowedNote::Leave() {
   if (visit_ && !visit_->lost) Add(visit_->where, {.passed = 1, .lost = 0});
   visit_.reset();

@@ -86,7 +86,7 @@ Result<void> FollowerLink::Start() {
 
 void FollowerLink::Report(const ReplayStep& step) {
   ReplayStep copy = step;
-  // Full: the thread is busy on the disk, and will get a newer one.
+  // If the queue is full, the thread is busy with the disk and will get a newer report.
   [[maybe_unused]] const bool put = reports_.TryPut(std::move(copy));
   reported_.Ring();
 }
@@ -199,7 +199,7 @@ void FollowerLink::Trade() {
       finder_.Handle(message);
     }
   }
-  (void)TellHold();  // full: with the next messages
+  (void)TellHold();  // if the queue is full, the next messages repeat it
   AnswerOperators();
   if (auto listening = Listen(now); !listening) spdlog::debug("{}", listening.error().message);
   Say(now);
@@ -210,7 +210,8 @@ void FollowerLink::Trade() {
   presence_->Tick(now);
 }
 
-// Segments come of what it fetches, while it does, and of what it lends unless others do.
+// It listens to segments of the route that it fetches, as long as it does, and of routes that it
+// would serve to peers.
 Result<void> FollowerLink::Listen(Time now) {
   std::set<route::RouteKey> routes = spare_.ListensTo(now);
   const bool fetches = fetcher_ && !fetcher_->Complete() && !fetcher_->deleted();
@@ -264,7 +265,7 @@ Result<void> FollowerLink::StoreNews() {
   if (!fetcher_->info()) return {};
   route_ = *fetcher_->info();
   route::RouteInfo news = *route_;
-  // Complete in the own store only when all of it is there and right.
+  // The stored route counts as complete only when all of it is there and right.
   if (!fetcher_->Complete()) news.state = route::RouteState::kTeaching;
   if (news == stored_) return {};
   stored_ = news;

@@ -1,4 +1,4 @@
-// How FollowerLink comes by a route: its fetcher, and what becomes of segments that prove wrong.
+// This part of FollowerLink gets a route: its fetcher, and what becomes of wrong segments.
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
@@ -28,7 +28,7 @@ Result<void> FollowerLink::MakeFetcher(const std::vector<exchange::RouteFetcher:
   if (!made) return tl::unexpected(made.error());
   fetcher_.emplace(std::move(*made));
   fetcher_->Learn(*route_, now);
-  // What the own store knows may be more than what the finder heard.
+  // The own store may know more than the finder heard.
   auto own = store_->FindRoute(key);
   if (!own) return tl::unexpected(own.error());
   stored_ = *own;
@@ -38,7 +38,7 @@ Result<void> FollowerLink::MakeFetcher(const std::vector<exchange::RouteFetcher:
   return {};
 }
 
-// Each is whole, and together they are another route than the scout announced.
+// Each segment is whole, but together they are not the route that the scout announced.
 Result<void> FollowerLink::DropWrong(std::uint32_t count) {
   const std::set<AgentId> senders = fetcher_->senders();
   if (auto dropped = store_->DropSegments(route_->key); !dropped) return dropped;

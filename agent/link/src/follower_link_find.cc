@@ -1,4 +1,5 @@
-// Which route it is that shall be followed: from the own store, or as the network knows it.
+// This part of FollowerLink decides which route is followed: the own store's, or as the network
+// knows it.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -17,10 +18,11 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// Who has the route already does not wait longer than this for a server's word on it.
+// A robot that has the route waits no longer than this for a server's opinion.
 constexpr milliseconds kServerPatience{3000};
 
-// There are revisions, but not the one that is meant. `holder`: "server 'server'", "robot.db".
+// Says that there are revisions, but not the wanted one. `holder` is "server 'server'" or
+// "robot.db".
 Error NotOffered(const std::string& holder, std::vector<route::RouteInfo> others,
                  const FollowerLinkOptions& options) {
   constexpr std::size_t kShown = 4;
@@ -86,10 +88,10 @@ Result<void> FollowerLink::Find() {
   return {};
 }
 
-// Sets route_ when it is clear which one it is; an error when none will be.
+// Sets route_ once it is clear which one is meant. An error means that none will be.
 Result<bool> FollowerLink::Asked(Time began, const std::optional<route::RouteInfo>& own) {
   const auto waited = steady_clock::now() - began;
-  // Of several servers each may have routes of its own.
+  // There may be several servers, each with routes of its own.
   const bool all_answered = finder_.IsUnknownTo(presence_->servers()) || waited > kServerPatience;
   const bool unknown = finder_.unknown() && all_answered;
   const bool settled = unknown || waited > kServerPatience;

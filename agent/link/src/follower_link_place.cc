@@ -1,4 +1,4 @@
-// What one run of a follower leaves to the next: how far along its route the robot is.
+// This part of FollowerLink notes how far along its route the robot is, for the next run.
 #include <spdlog/spdlog.h>
 
 #include <utility>
@@ -13,7 +13,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// Often enough to find the place again, and no burden on a memory card.
+// This is often enough to find the place again, and no burden for a memory card.
 constexpr milliseconds kNoteEvery{1000};
 
 void Complain(const Result<void>& noted) {

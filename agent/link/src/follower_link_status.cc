@@ -1,4 +1,4 @@
-// What others hear of this follower, and it of them.
+// This part of FollowerLink tells others about this follower, and hears about them.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -108,7 +108,7 @@ void FollowerLink::HearOperators(const exchange::Message& message) {
 }
 
 void FollowerLink::AnswerOperators() {
-  // What cannot be handed over now is asked for again.
+  // A command whose answer is not sent now comes again.
   (void)exchange::PublishAll(*exchange_, now_desk_.TakeAnswers());
 }
 
@@ -144,7 +144,7 @@ void FollowerLink::TellNeighbours(Time now) {
   auto on = neighbours_.On(route_->key);
   if (on == told_) return;
   auto copy = on;
-  // Full: the control loop is at work on a frame, and will get newer ones.
+  // If the queue is full, the control loop works on a frame and will get newer ones.
   if (!told_neighbours_.TryPut(std::move(copy))) return;
   told_ = std::move(on);
   fed_.Ring();

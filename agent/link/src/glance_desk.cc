@@ -22,7 +22,7 @@ void GlanceDesk::Handle(const exchange::Message& message, Time now) {
   }
 }
 
-// Whoever asked so long ago looks no more, or has asked anew.
+// A request this old is given up, or its client has asked again.
 void GlanceDesk::Forget(Time now) {
   std::erase_if(waiting_, [&](const Waiting& waiting) { return now - waiting.since > kAskedFor; });
   if (waiting_.empty()) asked_ = false;

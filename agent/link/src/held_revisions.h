@@ -7,8 +7,8 @@
 
 namespace trailcast::agent {
 
-// What an agent tells of its own store: the revisions of which all is there, newest first, as many
-// as a status carries.
+// Returns the revisions that the agent's store has completely, the newest first, as many as a
+// status holds.
 [[nodiscard]] Result<std::vector<route::RouteKey>> HeldRevisions(store::RouteStore& store);
 
 }  // namespace trailcast::agent

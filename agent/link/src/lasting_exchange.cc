@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 class LastingExchange::Visitor : public exchange::RouteExchange {
  public:
   explicit Visitor(LastingExchange& host) : host_(host), at_first_(host.Remembered()) {}
-  // What it listened to is nobody's any more; a topic that cannot be left costs a little traffic.
+  // Nobody needs the visit's topics any more. One that cannot be left costs a little traffic.
   ~Visitor() override {
     (void)host_.exchange_->Listen(exchange::Topic::kSegments, {});
     (void)host_.exchange_->Listen(exchange::Topic::kNeighbours, {});

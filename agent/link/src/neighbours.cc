@@ -24,7 +24,7 @@ void Neighbours::Handle(const exchange::AgentGone& gone) {
   }
 }
 
-// The later word counts, whoever has it.
+// The latest report counts, wherever it comes from.
 void Neighbours::Handle(const exchange::RouteFollowers& told, Time now) {
   std::erase_if(known_, [&](const auto& entry) {  // those that have arrived, or left the route
     const auto& known = entry.second;
@@ -76,7 +76,7 @@ std::vector<Neighbour> Neighbours::Forget(Time now) {
   std::vector<Neighbour> forgotten;
   for (auto known = known_.begin(); known != known_.end();) {
     const Neighbour& neighbour = known->second.neighbour;
-    // A server that tells of a route tells of all on it.
+    // A server's report on a route names all robots on it.
     const bool silent = !neighbour.heard || known->second.told_by;
     if (silent && now - neighbour.told_at > kRemembered) {
       forgotten.push_back(neighbour);

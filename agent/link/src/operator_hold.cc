@@ -41,7 +41,7 @@ Result<void> OperatorHold::Keep() const {
   return ReplaceFile(file_, fmt::format("{}\n{}\n", kStopFirstLine, hold_.text));
 }
 
-// The robot stands first; whether that outlasts a restart is said.
+// The robot is stopped first; the answer then says whether the stop outlasts a restart.
 OperatorHold::Obeyed OperatorHold::Stop(std::string text) {
   if (hold_.kind == Hold::Kind::kStopped) return {false, hold_.text};
   hold_.kind = Hold::Kind::kStopped;

@@ -136,7 +136,7 @@ void Outbox::OfferAgain(const exchange::SegmentRequest& request) {
 
 std::vector<exchange::Message> Outbox::Tick(Time now) {
   std::vector<exchange::Message> messages;
-  // Earlier revisions first: a server activates a route's first complete one.
+  // Earlier revisions come first, because a server activates a route's first complete one.
   std::vector<exchange::RouteSender*> senders;
   for (auto& [key, sending] : sending_) senders.push_back(&sending.sender);
   std::sort(senders.begin(), senders.end(),
@@ -175,8 +175,8 @@ Result<void> Outbox::SaveReceipts() {
     for (const SegmentIndex index : sending.sender.TakeNewlyReceipted()) {
       sending.confirmed.insert(index);
     }
-    // The last segment's receipt is written down with the whole route's: as long as it is not,
-    // another run knows that the route's end may not have reached a server.
+    // The last segment's acknowledgement is written down together with the whole route's. Until
+    // then, another run knows that the route's end may not have reached a server.
     const SegmentIndex last(sending.sender.info().segment_count - 1);
     std::vector<SegmentIndex> ready(sending.confirmed.begin(), sending.confirmed.end());
     if (!sending.sender.AllReceipted()) std::erase(ready, last);

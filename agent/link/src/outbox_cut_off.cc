@@ -1,5 +1,4 @@
-// The outbox's dealings with teachings that were cut off: to end them, go on with them, or give
-// them up.
+// This part of the outbox ends, continues or gives up teachings that were cut off.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +12,7 @@
 namespace trailcast::agent {
 namespace {
 
-// Segments 0..n-1 that are held without a gap.
+// Returns how many segments from 0 are held without a gap.
 std::uint32_t PrefixLength(const std::vector<store::HeldSegment>& held) {
   std::uint32_t length = 0;
   while (length < held.size() && held[length].index.value() == length) ++length;
@@ -22,8 +21,8 @@ std::uint32_t PrefixLength(const std::vector<store::HeldSegment>& held) {
 
 }  // namespace
 
-// A crash may come between a segment and the info that counts it: counted anew. A segment that
-// cannot be read counts with what the others have in the mean, and is asked of whoever has it.
+// Segments are counted again, because a crash may come between a segment and the info that counts
+// it. A segment that cannot be read counts with the others' mean, and is requested from any holder.
 Result<void> Outbox::EndCutOff(route::RouteInfo& info,
                                const std::vector<store::HeldSegment>& held) {
   const std::uint32_t count = PrefixLength(held);
@@ -93,7 +92,7 @@ Result<std::string> Outbox::Discard(route::RouteInfo info, bool send) {
   if (!unreceipted) return tl::unexpected(unreceipted.error());
   const std::string which = route::Describe(info);
   const std::string id = route::ShortIds().Of(info);
-  // What was sent a moment ago may be there as well.
+  // Segments that were sent a moment ago may have arrived as well.
   const bool may_be_there = unreceipted->size() < held->size() || sending_.contains(info.key);
   if (may_be_there && send) {
     if (auto taken = TakeUp(info, Receipts::kNoted); !taken) return taken;

@@ -25,7 +25,7 @@ bool IsGood(const NotedPlace& place) {
          place.magnification > 1.0 / kMostMagnification && place.magnification < kMostMagnification;
 }
 
-// The lines that Write makes.
+// Parses the lines that Write makes.
 std::optional<NotedPlace> Parse(const std::string& text) {
   std::istringstream lines(text);
   std::string first;

@@ -10,7 +10,7 @@
 namespace trailcast::agent {
 namespace {
 
-// So long a server may take to say which revision is meant, before that in the own store is taken.
+// A server has so long to say which revision is meant; after that, the own store's counts.
 constexpr std::chrono::milliseconds kSaysWithin{3000};
 
 }  // namespace

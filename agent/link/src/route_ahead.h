@@ -13,27 +13,28 @@
 
 namespace trailcast::agent {
 
-// The route that a follower is to drive along next: found, fetched into the own store as far as
-// that lacks it, and read from there, beside the one that it follows. The link's thread. Whatever
-// fails, there is nothing to read: who then stands before that route asks for it anew, and is told
-// why.
+// The route that a follower will drive next. It is found, fetched into the own store as far as that
+// lacks it, and read from there, while the robot follows another one. The link's thread owns it. If
+// anything fails, there is nothing to read; a robot that comes to that route asks for it again, and
+// is told why.
 class RouteAhead {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  // `store` outlives it. Not `online`: the own store has it, or it is not to be had.
+  // `store` must outlive it. If it is not `online`, the route comes from the own store or not at
+  // all.
   RouteAhead(const AgentId& self, RouteWish wish, store::RouteStore& store, bool online, Time now);
 
   void Handle(const exchange::Message& message, Time now);
   [[nodiscard]] std::vector<exchange::Message> Tick(Time now);
-  // Whose segments it waits for.
+  // Returns the route for whose segments it waits.
   [[nodiscard]] std::optional<route::RouteKey> listens_to() const;
-  // True once, when the own store has come to have all of it.
+  // Returns true once, when the own store has the whole route.
   [[nodiscard]] bool TakeFetched() { return std::exchange(fetched_, false); }
 
   [[nodiscard]] std::uint32_t number() const { return wish_.number; }
-  // The next of: the route, where on it the robot begins, its segments, that these are all.
-  // Nothing: not now. An item that could not be handed on is given back.
+  // Returns the next item: the route, where the robot begins on it, its segments, that these are
+  // all; or nothing for now. An item that could not be passed on is given back.
   [[nodiscard]] std::optional<Feed> Next();
   void GiveBack(Feed item) { given_back_ = std::move(item); }
 
@@ -50,11 +51,11 @@ class RouteAhead {
   Time began_;
   exchange::RouteFinder finder_;
   std::optional<route::RouteInfo> route_;
-  std::optional<exchange::RouteFetcher> fetcher_;  // while some of it is missing
+  std::optional<exchange::RouteFetcher> fetcher_;  // while segments are missing
   bool fails_ = false;
   bool all_here_ = false;
   bool fetched_ = false;
-  std::uint32_t next_ = 0;  // of its segments
+  std::uint32_t next_ = 0;  // index of the next segment
   enum class Fed : std::uint8_t { kNothing, kRoute, kSegments, kAll } fed_ = Fed::kNothing;
   std::optional<Feed> given_back_;
 };

@@ -19,11 +19,11 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kWait{20};
-// A server answers well within this; who hears none by then is told so.
+// A server answers well within this; otherwise people are told that none does.
 constexpr milliseconds kServerPatience{3000};
 constexpr milliseconds kServerAsksWithin{1500};
 
-// Who is on duty follows, too, and is told so by operators.
+// An agent that waits for missions also follows, and operators command it.
 exchange::AgentStatus ScoutStatus(const ScoutLinkOptions& options) {
   exchange::AgentStatus status;
   status.agent = options.agent;
@@ -95,7 +95,7 @@ bool ScoutLink::Put(Offered offered) {
 }
 
 void ScoutLink::Report(const TeachingNow& now) {
-  // Full: the thread is busy on the disk, and will get a newer one.
+  // If the queue is full, the thread is busy with the disk and will get a newer report.
   [[maybe_unused]] const bool put = reports_.TryPut(TeachingNow(now));
 }
 
@@ -248,8 +248,8 @@ Result<void> ScoutLink::Deliver() {
   return {};
 }
 
-// A server that lacks what was receipted once asks soon for what this agent says that it holds; who
-// teaches has been there long enough.
+// A server that lost acknowledged segments soon asks for what this agent says it holds. An agent
+// that teaches has been there long enough.
 bool ScoutLink::HasAsked() const {
   if (planned_) return true;
   const auto now = steady_clock::now();
@@ -286,7 +286,7 @@ void ScoutLink::HearRefusal() {
   }
 }
 
-// At once, while operators may want it driven otherwise.
+// Remarks are told at once, while operators can still have the route driven differently.
 void ScoutLink::HearRemark() {
   if (!key_ || outbox_.remark(*key_) == told_remark_) return;
   told_remark_ = outbox_.remark(*key_);

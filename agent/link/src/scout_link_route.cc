@@ -1,4 +1,5 @@
-// Which teaching it is whose segments come: a new one, or one that was cut off and goes on.
+// This part of ScoutLink decides to which teaching the segments belong: a new one, or one that was
+// cut off and continues.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 
 namespace trailcast::agent {
 
-// Of several routes that may be meant its own is.
+// If several routes match, this agent's own is meant.
 Result<std::vector<route::RouteInfo>> ScoutLink::FindMeant(const std::string& name_or_id) {
   auto meant = store_->FindMeant(name_or_id);
   if (!meant) return meant;
@@ -78,8 +79,8 @@ Result<void> ScoutLink::Discard(const route::RouteInfo& cut_off) {
   return {};
 }
 
-// What was told to be its end stays so: then it is another teaching, with the same segments at its
-// beginning.
+// An end that was announced stays, so the continuation is another teaching that begins with the
+// same segments.
 Result<void> ScoutLink::GoOn(const route::RouteInfo& cut_off) {
   route::RouteInfo route = cut_off;
   if (cut_off.state == route::RouteState::kComplete) {
