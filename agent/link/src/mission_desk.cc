@@ -22,9 +22,9 @@ using mission::State;
 constexpr const char* kMissionsFirstLine = "trailcast-missions 2";
 constexpr std::chrono::milliseconds kAgain{1000};
 constexpr std::size_t kFields = 12;
-constexpr std::size_t kMostOfWay = 20;  // bytes that WithWay makes a detail longer, at most
+constexpr std::size_t kMostOfWay = 20;  // the most bytes by which WithWay makes a detail longer
 
-// Texts have no control characters (exchange::CheckBounds), and thus no tabs.
+// Texts have no control characters (exchange::CheckBounds), and so no tabs.
 std::vector<std::string> FieldsIn(const std::string& line) {
   std::vector<std::string> fields;
   std::size_t at = 0;
@@ -36,7 +36,7 @@ std::vector<std::string> FieldsIn(const std::string& line) {
   }
 }
 
-// Adds for people which way a robot is on, if that is not the first.
+// Tells people which path a robot is on, if it is not the first one.
 std::string WithWay(const std::string& detail, std::uint32_t way) {
   return way < 2 ? detail : fmt::format("{}{}(way {})", detail, detail.empty() ? "" : " ", way);
 }
@@ -144,7 +144,7 @@ void MissionDesk::Answer(Kept& kept, State state, const std::string& detail,
   ++kept.last.change;
   kept.last.state = state;
   kept.last.waits_for = waits_for;
-  // Of what has ended nobody needs to know the way.
+  // Nobody needs the path of a mission that has ended.
   const auto going =
       mission::HasEnded(state) ? std::nullopt : mission::GoingIn(kept.mission.orders);
   kept.last.way = going ? going->way : 1;
@@ -161,13 +161,14 @@ void MissionDesk::Answer(Kept& kept, State state, const std::string& detail,
 void MissionDesk::Take(const mission::Mission& mission) {
   if (Kept* known = Find(mission.id)) {
     if (mission.relayed && current_ && current_->mission.id == mission.id) Amend(*known, mission);
-    known->due = true;  // whoever sends it has not heard the answer
+    known->due = true;  // its sender has not heard the answer
     return;
   }
-  // Another way than at first is for who has begun: whoever forgot that moves nowhere unasked.
+  // A second or later path is for a robot that has begun. A robot that forgot its mission must not
+  // move on it.
   const auto going = mission::GoingIn(mission.orders);
   if (going && going->way > 1) return;
-  // Those that ended first go first; the current one stays.
+  // Those that ended first are dropped first; the current one stays.
   if (kept_.size() >= kMostKept) {
     kept_.erase(std::find_if(kept_.begin(), kept_.end(),
                              [](const Kept& kept) { return mission::HasEnded(kept.last.state); }));
@@ -184,14 +185,14 @@ void MissionDesk::Take(const mission::Mission& mission) {
   } else {
     Answer(kept, State::kAccepted, "");
   }
-  // What is not remembered could be done twice.
+  // A mission that is not remembered could be done twice.
   if (auto remembered = Keep(); !remembered && kept.last.state == State::kAccepted) {
     Answer(kept, State::kRefused, remembered.error().message);
   }
   if (kept.last.state == State::kAccepted) Begin(kept, *std::move(tasks));
 }
 
-// A way that comes late is an old one.
+// A path that comes late is an old one.
 void MissionDesk::Amend(Kept& kept, const mission::Mission& mission) {
   const mission::Going& before = current_->going;
   const auto going = mission::GoingIn(mission.orders);
@@ -215,7 +216,7 @@ void MissionDesk::GoOnAt(std::uint32_t task) {
 }
 
 void MissionDesk::Compare(const mission::Report& report) {
-  // Whatever is said later has to be newer than that.
+  // Every later report has to be newer than that.
   const bool can_be_newer = report.change < std::numeric_limits<std::uint32_t>::max();
   Kept* kept = Find(report.mission);
   if (kept == nullptr) {
@@ -229,9 +230,10 @@ void MissionDesk::Compare(const mission::Report& report) {
     end.detail = "its robot has come back without any record of it, and does it no more";
     unknown_[report.mission] = std::move(end);
   } else if (kept->last.change == report.change) {
-    kept->confirmed = true;  // saying it once more after a restart does no harm: not on the disk
+    kept->confirmed = true;  // not written to disk, because repeating it after a restart does no
+                             // harm
   } else if (report.change > kept->last.change && can_be_newer) {
-    // This robot's disk is an older one, and what it has said since is lost to it.
+    // This robot's disk is an older one, and its reports since then are lost.
     kept->last.change = report.change + 1;
     kept->confirmed = false;
     kept->due = true;
