@@ -22,8 +22,8 @@ class LastingExchange {
       : exchange_(std::move(exchange)) {}
 
   // The agent itself, which continues through all visits. The thread that takes messages calls
-  // `hear` for each message, `speak` when it is time to say something, and then the rest for the
-  // statuses that a visit publishes.
+  // `hear` for each message, then `say`, which may publish, and `saw_status` for each status that a
+  // visit publishes.
   struct Tending {
     std::function<void(const exchange::Message&)> hear;
     std::function<void(exchange::RouteExchange&)> say;
