@@ -12,51 +12,52 @@
 
 namespace trailcast::agent {
 
-// The robot behind an agent: simulated, recorded or real. Frames come at the device's own
-// pace: Next() waits for the next one, in lockstep devices it makes it.
+// The robot behind an agent: simulated, recorded or real. Frames come at the device's own pace:
+// Next() waits for the next one, or makes it if the device is in lockstep.
 class RobotDevice {
  public:
   virtual ~RobotDevice() = default;
   RobotDevice(const RobotDevice&) = delete;
   RobotDevice& operator=(const RobotDevice&) = delete;
 
-  // The next observation, or nothing when there will be none (a recording's end, a taught drive
-  // that is over). An error is final: the camera or the odometry failed.
+  // Returns the next observation, or nothing if there will be none (at a recording's end, or when a
+  // taught drive is over). An error is final: the camera or the odometry failed.
   [[nodiscard]] virtual Result<std::optional<Observation>> Next() = 0;
 
-  // What the base shall do until told otherwise. Recorded devices note it and do nothing.
+  // Sets what the base does until the next command. Recorded devices ignore it.
   [[nodiscard]] virtual Result<void> Drive(const motion::VelocityCommand& command) = 0;
 
-  // Why a robot had to be stopped.
+  // The reason for which a robot had to be stopped.
   struct Halt {
-    std::string what;   // one line for people; empty: it may drive again
-    bool fault = true;  // something of the robot has failed; otherwise it waits
+    std::string what;   // one line for people; empty once it may drive again
+    bool fault = true;  // something on the robot has failed; otherwise it waits
   };
-  // Whom Next tells, from its own thread, that the robot had to be stopped, and that it may drive
-  // again (EarForTrouble). Devices that never have to wait for their robot do not call it.
+  // Called by Next, on its thread, when the robot had to be stopped and when it may drive again
+  // (EarForTrouble). Devices that never wait for their robot do not call it.
   using Trouble = std::function<void(const Halt& halt)>;
   virtual void OnTrouble(const Trouble& /*tell*/) {}
 
-  // A person drives it from now on, in whatever way, or no longer. Frames then come also while it
-  // stands before something, so that it can be driven away from there.
+  // Tells that a person begins or ceases to drive the robot. Frames then also come while it stands
+  // before an obstacle, so that it can be driven away.
   virtual void ByHand(bool /*begins*/) {}
-  // For people who look through the camera of a robot that does not drive, from the thread that
-  // calls Next: what it sees now, without waiting. kUnavailable says why there is no picture.
+  // Returns the present picture without waiting, for people who look through the camera of a robot
+  // that does not drive. The thread that calls Next calls it. kUnavailable says why there is no
+  // picture.
   [[nodiscard]] virtual Result<image::GrayImage> Look() {
     return Fail(ErrorCode::kUnavailable, "its camera is looked through only while it drives");
   }
-  // What of a robot has failed, of which nothing is asked now; one line for people, empty: nothing
-  // that is known.
+  // Returns a known failure of a robot that is idle, as one line for people, or an empty text.
   [[nodiscard]] virtual std::string Ailment() { return {}; }
 
-  // Tells people, a line each, what befell its clocks and its odometry since the last call.
+  // Returns lines for people about its clocks and its odometry since the last call.
   [[nodiscard]] virtual std::vector<std::string> TakeNews() { return {}; }
 
-  // For people: "webcam 320x240", "recorded 160x120".
+  // Returns "webcam 320x240" or "recorded 160x120", for people.
   [[nodiscard]] virtual std::string camera() const = 0;
-  // Share of the drive done, 0..1, where the device knows it (a recording, a scripted scout).
+  // Returns the share of the drive that is done, 0..1, if the device knows it (a recording, a
+  // scripted scout).
   [[nodiscard]] virtual std::optional<double> drive_progress() const = 0;
-  // How full its battery is, where the robot tells. Any thread.
+  // Returns the battery's charge if the robot tells it. Any thread may call this.
   [[nodiscard]] virtual std::optional<std::uint8_t> battery_percent() const { return std::nullopt; }
 
  protected:

@@ -16,7 +16,7 @@
 
 namespace trailcast::agent {
 
-// Which robot is behind the agent, as the command line says it.
+// The robot behind the agent, as given on the command line.
 struct DeviceOptions {
   RecordedRun recorded;
   BagRun bag;
@@ -27,8 +27,8 @@ struct DeviceOptions {
   double base_patience_s = 30.0;
   double still_at_end_s = 0.0;
   vision::IntakeOptions intake;          // how its camera is mounted
-  std::optional<double> camera_ahead_m;  // the same, as ReplayMethodOptions has it
-  double pass_obstacles_m = 0.0;         // as PassingOptions::most_m
+  std::optional<double> camera_ahead_m;  // likewise; see ReplayMethodOptions
+  double pass_obstacles_m = 0.0;         // see PassingOptions::most_m
 
   [[nodiscard]] bool is_simulated() const { return !simulated.place.world.empty(); }
   [[nodiscard]] bool is_recorded() const { return !recorded.frames.empty() || !bag.bag.empty(); }
@@ -36,70 +36,71 @@ struct DeviceOptions {
 
 enum class DeviceUse : std::uint8_t { kTeach, kReplay, kOnDuty };
 
-// Flags of `command`; one of --frames, --bag, --sim and --ros2 is required. The scout's differ: a
-// simulated one is told a speed, a real one when its drive is over. On duty are no recordings.
+// Adds flags to `command`, of which one of --frames, --bag, --sim and --ros2 is required. A scout
+// has others: a speed if it is simulated, the end of its drive if it is real. An agent that waits
+// for missions has no recordings.
 void AddDeviceOptions(CLI::App& command, DeviceOptions& options, DeviceUse use);
 
-// Adds those of them for a recording: --frames with what goes with it, and --bag, which exclude
-// each other.
+// Adds the flags of a recording: --frames and what belongs to it, and --bag, which exclude each
+// other.
 struct RecordingFlags {
   CLI::Option* frames = nullptr;
   CLI::Option* bag = nullptr;
 };
 RecordingFlags AddRecordingOptions(CLI::App& command, RecordedRun& recorded, BagRun& bag);
 
-// The topics' options, which need the option `robot`, are also a recording's, which finds its own
-// where nothing is said: `bag` takes what the command line says.
+// The topics' options, which require the option `robot`, also apply to a recording, which finds its
+// own topics without them. TakeTopics copies the given ones into `bag`.
 void ShareTopics(CLI::App& command, CLI::Option* robot);
 void TakeTopics(const CLI::App& command, const dds::Ros2Options& topics, BagRun& bag);
 
-// Those of them for a simulated robot. Returns the one that names the world.
+// Adds the flags of a simulated robot and returns the one that names the world.
 CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool scout);
 
-// How far ahead a camera may be, and how it may be rolled.
+// These check how far ahead a camera is, and how it is rolled.
 [[nodiscard]] CLI::Validator CameraAheadRange();
 [[nodiscard]] CLI::Validator CameraRollValidator();
 
-// The one of them that says how the camera is rolled.
+// Adds the flag that tells how the camera is rolled.
 void AddCameraRoll(CLI::App& command, vision::IntakeOptions& intake);
 
-// Those of them that say what the base of a real robot can do; they need the option `robot`.
+// Adds flags for what a real robot's base can do; they require the option `robot`.
 void AddDriveLimits(CLI::App& command, CLI::Option* robot, motion::DriveLimits& limits);
 
-// Those of them that say which topics a ROS 2 robot has; they need the option `robot`.
+// Adds flags for the topics of a ROS 2 robot; they require the option `robot`.
 void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::string& group,
                          dds::Ros2Options& topics);
 
-// The one of a scanner, of which there need be none; it needs the option `robot`.
+// Adds the flag of a scanner's topic, which is optional; it requires the option `robot`.
 CLI::Option* AddScanTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
                                 dds::Ros2Options& topics);
 
-// The one of its range sensors, each of which may be given with its mount. Their number and order
-// are those of `topics.ranges` and `mounts`.
+// Adds the flag of range sensors, each with an optional mount. `topics.ranges` and `mounts` have
+// the same number and order.
 CLI::Option* AddRangeTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
                                  dds::Ros2Options& topics,
                                  std::vector<std::optional<motion::Pose2>>& mounts);
 
-// Both, and what has to be known of the robot to judge what they see.
+// Adds both, and the measures of the robot that are needed to judge their readings.
 void AddObstacleSensorOptions(CLI::App& command, CLI::Option* robot, dds::Ros2Options& topics,
                               ObstacleOptions& obstacles);
 
-// The same of an IMU.
+// Adds the flag of an IMU's topic likewise.
 CLI::Option* AddImuTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
                                dds::Ros2Options& topics);
 
-// The one of its battery.
+// Adds the flag of its battery's topic.
 CLI::Option* AddBatteryTopicOption(CLI::App& command, CLI::Option* robot, const std::string& group,
                                    dds::Ros2Options& topics);
 
-// The robot's topics, if they name no interface, are on the network's.
+// Puts the robot's topics on the network's interface if they name none.
 void JoinNetwork(dds::Ros2Options& topics, const program::CommonOptions& network);
 
 struct OpenedDevice {
   std::unique_ptr<RobotDevice> device;
-  const SimulatedRobot* simulated = nullptr;  // the same, where it is one
+  const SimulatedRobot* simulated = nullptr;  // the same device, if it is simulated
 
-  // After the run: whether a simulated robot's true poses are where they were asked for.
+  // Says, after the run, whether a simulated robot's true poses were written.
   [[nodiscard]] Result<void> TruthWritten() const;
 };
 

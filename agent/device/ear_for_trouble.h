@@ -4,7 +4,7 @@
 
 namespace trailcast::agent {
 
-// Hears of a robot's trouble for as long as it is there. A device has one at a time.
+// Listens to a robot's trouble for its own lifetime. A device has one at a time.
 class EarForTrouble {
  public:
   EarForTrouble(RobotDevice& device, const RobotDevice::Trouble& hear) : device_(device) {

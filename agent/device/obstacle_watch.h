@@ -13,9 +13,9 @@
 
 namespace trailcast::agent {
 
-// Makes a robot stand before what its scanner and range sensors see in its way: slows it so that it
-// still can, lets it stand with a gap, and go on once its way has been clear for half a second.
-// Told of all that comes; reads no clock itself.
+// Stops a robot before obstacles that its scanner and range sensors see. It slows the robot in
+// time, lets it stand with a gap, and lets it go on once its path has been clear for half a second.
+// Its caller passes on all samples; it reads no clock itself.
 class ObstacleWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -23,31 +23,31 @@ class ObstacleWatch {
   ObstacleWatch(const ObstacleOptions& options, bool has_scan);
 
   void See(Time now, const motion::Scan& scan);
-  // By the range sensor of that number in ObstacleOptions.
+  // `sensor` is the range sensor's index in ObstacleOptions.
   void See(Time now, std::size_t sensor, const motion::ConeRange& range);
   [[nodiscard]] bool has_scanned() const { return scan_.has_value(); }
-  // What the scanner saw last, seen from the axle: x ahead, y left.
+  // Returns the last scan's points, seen from the axle: x ahead, y left.
   [[nodiscard]] std::optional<std::vector<Eigen::Vector2d>> scanned() const {
     return scan_ ? std::optional(scan_->points) : std::nullopt;
   }
-  // The first range sensor of which nothing came yet.
+  // Returns the first range sensor that has given nothing yet.
   [[nodiscard]] std::optional<std::size_t> silent_range() const;
-  // Something came of each of them.
+  // Says whether each of them has given something.
   [[nodiscard]] bool has_seen_all() const {
     return (!has_scan_ || has_scanned()) && !silent_range();
   }
-  // The newest of each of them is of that time, or later.
+  // Says whether the newest sample of each of them is of that time or later.
   [[nodiscard]] bool Reaches(Time time) const;
 
-  // What the robot is to do, by whoever drives it; returns what may be done of it by the newest
-  // looks: the same bend, slower, or nothing, for which the robot then waits; asked to go another
-  // way meanwhile, which is free, it goes at once. Backwards, where none of them looks, no faster
-  // than kUnseen_mps.
+  // Takes a driver's command and returns the part of it that the newest samples allow: the same
+  // bend, slower, or a stop, after which the robot waits. A command for another path that is clear
+  // is obeyed at once. Backwards, where no sensor looks, the robot is no faster than kUnseen_mps.
   [[nodiscard]] motion::VelocityCommand Want(const motion::VelocityCommand& wanted);
   static constexpr double kUnseen_mps = 0.15;
-  // It is to drive backwards, and none of them looks there.
+  // Says whether it is to reverse and no sensor looks there.
   [[nodiscard]] bool backs_unseen() const { return wanted_.linear_mps < 0.0 && !looks_back_; }
-  // What it waits for, one line for people, the same until it goes on; nothing: it may drive.
+  // Returns what it waits for, as one line for people that stays the same until it goes on, or
+  // nothing if it may drive.
   [[nodiscard]] const std::optional<std::string>& waits() const { return waits_; }
 
  private:
@@ -68,11 +68,11 @@ class ObstacleWatch {
   bool has_scan_;
   bool looks_back_;
   motion::SteadyPoints steady_;
-  std::optional<Look> scan_;  // the newest; nothing: there was none yet
+  std::optional<Look> scan_;  // the newest; nothing if there was none yet
   std::vector<std::optional<Look>> ranges_;
-  std::vector<Eigen::Vector2d> points_;  // of them all
+  std::vector<Eigen::Vector2d> points_;  // of all sensors
   motion::VelocityCommand wanted_;
-  motion::VelocityCommand stopped_;  // the way on which it met what it waits for
+  motion::VelocityCommand stopped_;  // the command with which it met the obstacle
   std::optional<std::string> waits_;
   std::optional<Time> clear_since_;
 };

@@ -12,19 +12,19 @@
 
 namespace trailcast::agent {
 
-// Wheel odometry of a recorded run: poses at rising times, seconds
-// after the run's first frame, or by the clock of its frames' own times.
+// Wheel odometry of a recorded run: poses at rising times, in seconds after the run's first frame,
+// or by the clock of its frames' own times.
 class OdometryFile {
  public:
-  // CSV with the header `t_s,x_m,y_m,heading_rad` (more columns may follow and are not looked at).
-  // Errors name the file, the line and what was expected there.
+  // Reads CSV with the header `t_s,x_m,y_m,heading_rad`; further columns are ignored. Errors name
+  // the file, the line and what was expected there.
   [[nodiscard]] static Result<OdometryFile> Read(const std::filesystem::path& file);
 
-  // The pose at `time`, interpolated. Up to kSlack before the first and after the last row the
-  // nearest row holds; kInvalidArgument beyond.
+  // Returns the interpolated pose at `time`. Up to kSlack before the first and after the last row,
+  // the nearest row holds; beyond that, the error is kInvalidArgument.
   [[nodiscard]] Result<motion::Pose2> At(SensorTime time) const;
 
-  // As RecordedPoses has it.
+  // See RecordedPoses.
   [[nodiscard]] motion::OdometryIncrement TakeUnknown(SensorTime until,
                                                       std::vector<std::string>& news) {
     return poses_.TakeUnknown(until, news);

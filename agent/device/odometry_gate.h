@@ -8,36 +8,37 @@
 
 namespace trailcast::agent {
 
-// What a base can do at most between two of its odometry's samples. One that is silent for longer
-// is taken to stand for the rest: it is soon told to.
+// The most that a base can do between two samples of its odometry. After a longer silence it is
+// taken to have stood, because it is soon told to stop.
 struct GateOptions {
   double speed_mps = 3.0;
   double turn_rate_radps = 6.0;
   double longest_silence_s = 0.5;
 };
 
-// Further than its base can have driven.
+// A jump further than the base can have driven.
 struct OdometryJump {
-  std::chrono::nanoseconds gap{};     // over which the base's motion is not known
-  double distance_m = 0.0;            // as far as odometry says
-  motion::OdometryIncrement unknown;  // what may have been driven, one way or the other
+  std::chrono::nanoseconds gap{};     // in which the base's motion is not known
+  double distance_m = 0.0;            // by odometry
+  motion::OdometryIncrement unknown;  // the most that may have been driven, in either direction
 
-  // A line for people.
+  // Returns a line for people.
   [[nodiscard]] std::string Text() const;
 };
 
-// Keeps odometry in one frame. Where it jumps further than its base can have driven (a base that
-// was started anew, a frame that was set to zero) the jump is no motion: what comes after it goes
-// on from the place before it. What was driven meanwhile is not known.
+// Keeps odometry in one frame. A jump further than the base can have driven (a base that was
+// restarted, a frame that was set to zero) is no motion: odometry continues from the place before
+// it, and the motion meanwhile is unknown.
 class OdometryGate {
  public:
   explicit OdometryGate(const GateOptions& options) : options_(options) {}
 
   struct Passed {
-    motion::Pose2 pose;  // in the frame of the first sample
+    motion::Pose2 pose;  // in the first sample's frame
     std::optional<OdometryJump> jump;
   };
-  // `taken` goes forward. `told`: what the base was told meanwhile, where that is known.
+  // Passes a sample on. `taken` must rise; `told` is the base's command meanwhile, if that is
+  // known.
   [[nodiscard]] Passed Pass(SensorTime taken, const motion::Pose2& pose,
                             const motion::VelocityCommand& told = {});
 
@@ -53,7 +54,7 @@ class OdometryGate {
 
   GateOptions options_;
   std::optional<Sample> last_;
-  motion::OdometryIncrement speed_;  // in a second
+  motion::OdometryIncrement speed_;  // per second
 };
 
 }  // namespace trailcast::agent

@@ -8,21 +8,21 @@
 
 namespace trailcast::agent {
 
-// Odometry, for the pose at the moment a frame was taken: that of the last seconds, or all of it.
+// Odometry of the last seconds, or all of it, to look up the pose at the moment a frame was taken.
 class PoseHistory {
  public:
   explicit PoseHistory(std::chrono::nanoseconds kept = std::chrono::seconds(2)) : kept_(kept) {}
 
-  // False for a sample that is not newer than the last one: it is left out.
+  // Adds a sample. It leaves out one that is not newer than the last, and returns false.
   bool Add(SensorTime stamp, const motion::Pose2& pose);
 
   [[nodiscard]] bool empty() const { return samples_.empty(); }
-  // The pose then, interpolated; before the oldest or after the newest sample, that one's.
-  // Not empty.
+  // Returns the interpolated pose; before the oldest and after the newest sample, that one's. Needs
+  // a sample.
   [[nodiscard]] motion::Pose2 At(SensorTime stamp) const;
-  // How long before or after the nearest sample that is. Not empty.
+  // Returns the time to the nearest sample. Needs a sample.
   [[nodiscard]] std::chrono::nanoseconds FromNearest(SensorTime stamp) const;
-  // Not empty.
+  // Both need a sample.
   [[nodiscard]] SensorTime oldest() const { return samples_.front().stamp; }
   [[nodiscard]] SensorTime newest() const { return samples_.back().stamp; }
 
@@ -31,7 +31,7 @@ class PoseHistory {
     SensorTime stamp{};
     motion::Pose2 pose;
   };
-  // The first one that is not before `stamp`.
+  // Returns the first sample that is not before `stamp`.
   [[nodiscard]] std::deque<Sample>::const_iterator NotBefore(SensorTime stamp) const;
 
   std::chrono::nanoseconds kept_;

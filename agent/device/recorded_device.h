@@ -14,19 +14,18 @@ namespace trailcast::agent {
 
 struct RecordedRun {
   std::filesystem::path frames;         // a folder of pictures or a video
-  std::filesystem::path odometry;       // empty: vision only
-  std::optional<double> rate_hz;        // nothing: the video's own, or kDefaultRate_hz
-  std::filesystem::path frame_times{};  // a CSV, t_s; empty: by the rate
+  std::filesystem::path odometry;       // empty for a run without odometry
+  std::optional<double> rate_hz;        // nothing stands for the video's own, or kDefaultRate_hz
+  std::filesystem::path frame_times{};  // a CSV with t_s; if empty, the rate counts
 };
 
-// A run that was recorded, as fast as it can be read. Pictures that cannot be read are left out and
-// counted, as image::FrameSequence has it; those after them keep their times. What it is told to
-// drive has no effect.
+// A recorded run, read as fast as possible. Pictures that cannot be read are left out and counted
+// (image::FrameSequence); those after them keep their times. Commands have no effect.
 class RecordedDevice final : public RobotDevice {
  public:
   static constexpr double kDefaultRate_hz = 30.0;
 
-  // Reads the first frame already, so that what is unusable is found before anything starts.
+  // Reads the first frame, so that an unusable run is found before anything starts.
   [[nodiscard]] static Result<std::unique_ptr<RecordedDevice>> Open(const RecordedRun& run);
 
   [[nodiscard]] Result<std::optional<Observation>> Next() override;
@@ -36,9 +35,9 @@ class RecordedDevice final : public RobotDevice {
 
   [[nodiscard]] bool has_odometry() const { return odometry_.has_value(); }
   [[nodiscard]] double rate_hz() const { return rate_hz_; }
-  // Number of the frame that Next gave last, from 0; those that cannot be read count.
+  // Returns the number of the frame that Next gave last, from 0. Those that cannot be read count.
   [[nodiscard]] int frame() const { return frame_; }
-  // For people: "30 frames a second", or "frames by their own times".
+  // Returns "30 frames a second" or "frames by their own times", for people.
   [[nodiscard]] std::string timing() const;
   [[nodiscard]] int width_px() const { return width_; }
 
@@ -51,13 +50,13 @@ class RecordedDevice final : public RobotDevice {
   void TellNews();
 
   std::unique_ptr<image::FrameSequence> frames_;
-  std::optional<image::GrayImage> first_;  // until it is handed out
+  std::optional<image::GrayImage> first_;  // until Next returns it
   int width_;
   int height_;
   std::optional<OdometryFile> odometry_;
   double rate_hz_;
   std::filesystem::path times_file_;
-  std::vector<SensorTime> times_;  // of the frames; empty: by the rate
+  std::vector<SensorTime> times_;  // of the frames; if empty, the rate counts
   int frame_ = 0;
 };
 

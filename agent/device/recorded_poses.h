@@ -10,20 +10,21 @@
 
 namespace trailcast::agent {
 
-// All odometry of a recorded drive, without its jumps: how fast a base can be, it shows itself.
+// All odometry of a recorded drive without its jumps. The drive itself shows how fast its base can
+// be.
 class RecordedPoses {
  public:
   struct Sample {
     SensorTime taken{};
     motion::Pose2 pose;
   };
-  // Times that do not rise are left out.
+  // Samples whose times do not rise are left out.
   explicit RecordedPoses(const std::vector<Sample>& samples);
 
-  // At least one sample is kept.
+  // The history has at least one sample.
   [[nodiscard]] const PoseHistory& history() const { return history_; }
-  // What may have been driven over the jumps up to then, since the last call; times rise. Each
-  // jump's line for people is added to `news`.
+  // Returns the unknown motion over the jumps since the last call, up to `until`; times must rise.
+  // It adds each jump's line for people to `news`.
   [[nodiscard]] motion::OdometryIncrement TakeUnknown(SensorTime until,
                                                       std::vector<std::string>& news);
 
@@ -34,7 +35,7 @@ class RecordedPoses {
   };
   PoseHistory history_{std::chrono::nanoseconds::max()};
   std::vector<Jump> jumps_;
-  std::size_t taken_ = 0;  // of them
+  std::size_t taken_ = 0;  // how many of them were returned
 };
 
 }  // namespace trailcast::agent

@@ -11,8 +11,8 @@
 
 namespace trailcast::agent {
 
-// Where a robot was when a frame was taken: by its odometry, which may jump, and by the stamps of
-// both, which may be of different clocks. Reads no clock itself.
+// Tells where a robot was when a frame was taken, by its odometry, which may jump, and by the
+// stamps of both, which may be of different clocks. It reads no clock itself.
 class SensedPoses {
  public:
   using Time = StampClock::Time;
@@ -22,28 +22,28 @@ class SensedPoses {
   explicit SensedPoses(const GateOptions& options, Clocks clocks = Clocks::kMayDiffer)
       : clocks_(clocks), gate_(options) {}
 
-  // `told`: what the base was told meanwhile. False for a sample that says nothing new.
+  // `told` is the base's command meanwhile. Returns false for a sample without news.
   bool AddOdometry(SensorTime stamp, const motion::Pose2& pose, Time came_at,
                    const motion::VelocityCommand& told);
-  // When a frame was taken, later than the one before; nothing for one that comes out of turn.
+  // Returns when a frame was taken, later than the one before, or nothing for a frame out of order.
   [[nodiscard]] std::optional<SensorTime> AddFrame(SensorTime stamp, Time came_at);
 
   [[nodiscard]] bool has_odometry() const { return !poses_.empty(); }
-  // Odometry goes on past the moment of a frame (of AddFrame).
+  // Says whether odometry continues past a frame's moment (from AddFrame).
   [[nodiscard]] bool Reaches(SensorTime frame) const {
     return poses_.newest() >= frame + clocks_apart_;
   }
-  // There is odometry.
+  // Needs odometry.
   [[nodiscard]] motion::Pose2 At(SensorTime frame) const {
     return poses_.At(frame + clocks_apart_);
   }
-  // There is odometry: the newest, when it was taken, and as the base has that.
+  // These need odometry, and return the newest pose, when it was taken, and its stamp on the base.
   [[nodiscard]] motion::Pose2 newest_pose() const { return poses_.At(poses_.newest()); }
   [[nodiscard]] SensorTime newest() const { return poses_.newest(); }
   [[nodiscard]] SensorTime newest_stamp() const { return newest_stamp_; }
-  // What may have been driven over jumps since the last call.
+  // Returns the unknown motion over jumps since the last call.
   [[nodiscard]] motion::OdometryIncrement TakeUnknown();
-  // What befell clocks and odometry since the last call, a line each for people.
+  // Returns lines for people about clocks and odometry since the last call.
   [[nodiscard]] std::vector<std::string> TakeNews();
 
  private:
@@ -56,8 +56,8 @@ class SensedPoses {
   PoseHistory poses_;
   SensorTime newest_stamp_{};
   std::optional<motion::Pose2> newest_raw_;
-  std::chrono::nanoseconds clocks_apart_{0};  // of odometry's against the frames'
-  // The same as each of the last periods has it, in which samples of both came.
+  std::chrono::nanoseconds clocks_apart_{0};  // odometry's clock against the frames'
+  // The same difference in each of the last periods in which samples of both came.
   std::deque<std::chrono::nanoseconds> apart_;
   Time period_from_;
   motion::OdometryIncrement unknown_;

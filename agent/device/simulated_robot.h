@@ -13,16 +13,16 @@
 
 namespace trailcast::agent {
 
-// A SimulatedPlace is where a simulated robot drives, as a command line names it.
+// The place where a simulated robot drives, as a command line names it.
 struct SimulatedPlace {
   std::string world;            // a built-in place's name, or a world file (.obj, .glb, ...)
-  std::filesystem::path path;   // x_m,y_m way-points; empty: the built-in place's own
-  std::string up = "z";         // of a world file: y or z
+  std::filesystem::path path;   // way-points x_m,y_m; empty for the built-in place's own
+  std::string up = "z";         // the vertical axis of a world file: y or z
   double scale = 1.0;           // metres per unit of a world file
-  std::string ground = "mesh";  // what robots stand on: mesh or flat
+  std::string ground = "mesh";  // the surface robots stand on: mesh or flat
 };
 
-// RoughGround is a circle of the world's plane with bumps that only wheels feel.
+// A circle of the world's plane with bumps that only wheels feel.
 struct RoughGround {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -30,8 +30,8 @@ struct RoughGround {
   double height_m = 0.01;  // RMS
 };
 
-// Somebody takes a robot up once it has driven so far, and sets it down there, in the world's
-// frame: no wheel turns by that.
+// Somebody lifts a robot once it has driven so far and sets it down there, in the world's frame. No
+// wheel turns meanwhile.
 struct CarriedOff {
   double after_m = 0.0;
   motion::Pose2 to;
@@ -40,37 +40,38 @@ struct CarriedOff {
 struct SimulatedRun {
   SimulatedPlace place;
   std::string camera = "webcam";  // a built-in camera's name, or a .toml file
-  std::uint64_t seed = 1;         // draws the robot's errors and all noise
-  double speed_mps = 0.0;         // the scout's; 0: as is usual in that place
-  bool drives_itself = false;     // the scout, along the path; otherwise Drive says where to
-  bool has_driver = false;        // who does the same whenever it is driven by hand
-  bool stays_at_end = false;      // the scout goes on looking where its drive ended
+  std::uint64_t seed = 1;         // for the robot's errors and all noise
+  double speed_mps = 0.0;         // the scout's; 0 for the place's usual one
+  bool drives_itself = false;     // a scout drives along the path; otherwise Drive commands it
+  bool has_driver = false;        // a driver does the same whenever it is driven by hand
+  bool stays_at_end = false;      // the scout keeps looking where its drive ended
   bool in_real_time = false;      // its time passes no faster than ours
   double rate_hz = 30.0;          // of its steps, each with odometry and a picture
-  double turn_radius_m = 0.0;     // it steers like a car, no tighter; 0: by two driven wheels
-  // For whoever judges: the true poses of the frames, as they are made, CSV
-  // `t_s,x_m,y_m,heading_rad` in the world's frame. Empty: nowhere.
+  double turn_radius_m = 0.0;     // it steers like a car, no tighter than this; 0 for two driven
+                                  // wheels
+  // The file for the frames' true poses, for whoever judges the run: CSV `t_s,x_m,y_m,heading_rad`
+  // in the world's frame. It may be empty.
   std::filesystem::path truth{};
-  double battery_minutes = 0.0;      // that a full one lasts; 0: it tells of none
-  std::vector<RoughGround> rough{};  // what its wheels feel besides the place's ground
+  double battery_minutes = 0.0;      // how long a full one lasts; with 0 it reports none
+  std::vector<RoughGround> rough{};  // bumps in addition to the place's ground
   std::optional<CarriedOff> carried{};
 };
 
 class SimulatedRobot : public RobotDevice {
  public:
-  // Whether all of what SimulatedRun::truth asks for is there. Agents know this class as a
-  // RobotDevice only.
+  // Says whether everything that SimulatedRun::truth asks for was written. Agents know this class
+  // as a RobotDevice only.
   [[nodiscard]] virtual Result<void> TruthWritten() const = 0;
 };
 
-// From the library of simulated robots, which brings a ray tracer and readers of world files with
-// it that a robot has no use for. Error: kUnavailable where it is not installed; those of
+// Opens a robot from the library of simulated robots, which links a ray tracer and readers of world
+// files that a real robot does not need. Errors: kUnavailable if it is not installed, and those of
 // SimulatedDevice::Open.
 [[nodiscard]] Result<std::unique_ptr<SimulatedRobot>> OpenSimulatedRobot(const SimulatedRun& run);
 
 }  // namespace trailcast::agent
 
-// What that library exports under this name.
+// The library exports this function.
 extern "C" void trailcast_open_simulated_robot(
     const trailcast::agent::SimulatedRun& run,
     trailcast::Result<std::unique_ptr<trailcast::agent::SimulatedRobot>>& opened);

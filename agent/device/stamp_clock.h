@@ -8,23 +8,25 @@
 
 namespace trailcast::agent {
 
-// Makes times that go forward of a sensor's stamps, which in real life step back or ahead (a clock
-// that is set, a driver that is started anew), stand still, or are not set at all. Until then they
-// are the stamps themselves; afterwards the time of arrival says how much later a sample is. Reads
-// no clock itself.
+// Makes rising times from a sensor's stamps, which in practice step back or ahead (a clock that is
+// set, a driver that is restarted), stand still, or are not set at all. Until such an event, the
+// times are the stamps; after it, the time of arrival tells how much later a sample is. It reads no
+// clock itself.
 class StampClock {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  // When the sample was taken, later than the one before; nothing for one that comes out of turn.
+  // Returns when the sample was taken, later than the one before, or nothing for a sample out of
+  // order.
   [[nodiscard]] std::optional<SensorTime> Follow(SensorTime stamp, Time came_at);
 
-  // When the quickest sample since the last call came, less when it was taken: where this clock
-  // stands against the machine's, and how long its samples are under way. Nothing: none came.
+  // Returns when the quickest sample since the last call came, less when it was taken: the
+  // difference between this clock and the machine's, and the transmission. Nothing came if it is
+  // empty.
   [[nodiscard]] std::optional<std::chrono::nanoseconds> TakeBehind();
-  // Its stamps do not go on: the time of arrival counts.
+  // Says whether its stamps do not advance, so that the time of arrival counts.
   [[nodiscard]] bool stands() const { return stands_; }
-  // What befell the stamps since the last call, for people; empty: nothing.
+  // Returns what happened to the stamps since the last call, for people, which may be empty.
   [[nodiscard]] std::string TakeNews();
 
  private:
@@ -36,7 +38,7 @@ class StampClock {
   void NoteBehind();
 
   std::optional<Sample> last_;
-  std::chrono::nanoseconds shift_{0};  // of what is told against the stamps
+  std::chrono::nanoseconds shift_{0};  // the returned times less the stamps
   bool stands_ = false;
   std::string news_;
   std::optional<std::chrono::nanoseconds> behind_;

@@ -4,7 +4,7 @@
 
 namespace trailcast::agent {
 
-// Commands the robot to stand when it goes, however the loop around it ends.
+// Stops the robot in its destructor, however the loop around it ends.
 class Standstill {
  public:
   explicit Standstill(RobotDevice& device) : device_(device) {}
@@ -14,10 +14,10 @@ class Standstill {
   Standstill(const Standstill&) = delete;
   Standstill& operator=(const Standstill&) = delete;
 
-  // Somebody else sees to that from now on.
+  // Leaves the stop to somebody else.
   void Leave() { left_ = true; }
 
-  // A base that cannot even be told to stand is the base's own watchdog's matter.
+  // If the base cannot even be told to stop, its own watchdog has to.
   void Stop() const { [[maybe_unused]] const auto told = device_.Drive({0.0, 0.0}); }
 
  private:

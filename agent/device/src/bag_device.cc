@@ -20,10 +20,10 @@ using std::chrono::nanoseconds;
 
 // Pictures further from any odometry are left out.
 constexpr std::chrono::milliseconds kOdometryNear{500};
-// Stamps whose distance from the recorder's clock differs by more are of different clocks.
+// Stamps whose difference from the recorder's clock varies by more are of different clocks.
 constexpr std::chrono::seconds kRecordersSameClock{2};
 
-// A base may no longer do what it was told before so long.
+// A base may no longer obey a command that is older than this.
 constexpr std::chrono::seconds kCommandHolds{1};
 // No message waits so long to be recorded.
 constexpr std::chrono::seconds kStampsStep{1};
@@ -33,10 +33,10 @@ struct Commanded {
   motion::VelocityCommand velocity;
 };
 
-// Tells where a topic's stamps step against the recorder's clock.
+// Detects steps of a topic's stamps against the recorder's clock.
 class StampSteps {
  public:
-  // How far they have just stepped; nothing: they go on, or there are none.
+  // Returns how far the stamps have just stepped, or nothing if they did not or there are none.
   [[nodiscard]] std::optional<nanoseconds> Add(const RecordedTimes& times) {
     if (times.stamp == SensorTime(0)) return std::nullopt;
     const nanoseconds ahead = times.stamp - times.logged_at;
@@ -48,7 +48,7 @@ class StampSteps {
   std::optional<nanoseconds> ahead_;
 };
 
-// How far it was driven until then.
+// The distance driven until a moment.
 struct Driven {
   SensorTime at{};
   double length_m = 0.0;
@@ -65,7 +65,7 @@ struct LeftOut {
   image::LeftOutPictures unreadable;
   int late = 0;
   int without_odometry = 0;
-  double length_m = 0.0;  // of the drive between the pictures that are not
+  double length_m = 0.0;  // of the drive between pictures that were left out
 
   [[nodiscard]] std::string Text() const {
     std::vector<std::string> parts;
@@ -105,7 +105,7 @@ struct BagDevice::State {
   std::unique_ptr<bag::Bag> bag;
   BagTopics topics;
   RecordedClock odometry;
-  std::vector<motion::Pose2> raw_poses;  // of these
+  std::vector<motion::Pose2> raw_poses;  // of these samples
   std::vector<Driven> driven;
   std::vector<Commanded> commands;
   std::optional<RecordedPoses> poses;
@@ -113,16 +113,16 @@ struct BagDevice::State {
   bool has_stamps = false;
   RecordedClock pictures_clock;
   std::vector<std::optional<std::size_t>>
-      in_clock;                      // each picture's place there, if it can be read
-  bool by_stamps = true;             // else by the times of recording
-  std::optional<Observation> first;  // until it is handed out
+      in_clock;                      // each picture's index there, if it can be read
+  bool by_stamps = true;             // otherwise by recording times
+  std::optional<Observation> first;  // until Next returns it
   std::optional<SensorTime> begun;   // when the first picture was taken
   std::optional<SensorTime> last;
-  std::uint64_t pictures = 0;          // looked at
-  std::optional<SensorTime> gap_from;  // since then pictures are left out
+  std::uint64_t pictures = 0;          // that were read
+  std::optional<SensorTime> gap_from;  // pictures are left out since then
   LeftOut left_out;
   std::size_t damage_told = 0;
-  std::optional<nanoseconds> recorded_from;  // the first message that was looked at
+  std::optional<nanoseconds> recorded_from;  // when the first message was recorded
   StampSteps picture_steps;
   std::vector<std::string> news;
   int width_px = 0;
@@ -149,7 +149,7 @@ Result<void> BagDevice::State::ReadOdometry() {
   if (!topics.odometry) return {};
   bag->Begin(*topics.odometry);
   int unfit = 0;
-  std::string why;  // the first
+  std::string why;  // of the first one
   StampSteps steps;
   std::vector<RecordedTimes> times;
   while (true) {
@@ -178,7 +178,7 @@ Result<void> BagDevice::State::ReadOdometry() {
   return {};
 }
 
-// Damaged ones are as good as none.
+// A damaged command counts as missing.
 Result<void> BagDevice::State::ReadCommands() {
   if (!topics.commands) return {};
   const bool stamped = bag::PlainType(topics.commands->type) == bag::kTwistStampedType;
@@ -213,7 +213,7 @@ Result<RecordedTimes> BagDevice::State::TimesOf(const bag::Message& message) con
   return RecordedTimes{*stamp, message.logged_at};
 }
 
-// Only all of a topic's times tell what its clocks do.
+// A clock's behaviour shows only in all of a topic's times.
 Result<void> BagDevice::State::ReadPictureTimes() {
   bag->Begin(topics.image);
   std::vector<RecordedTimes> all;
@@ -230,7 +230,7 @@ Result<void> BagDevice::State::ReadPictureTimes() {
   return {};
 }
 
-// By stamps, if pictures have them, and odometry's are of the same clock.
+// Stamps count if pictures have them and odometry's are of the same clock.
 void BagDevice::State::ChooseClock() {
   by_stamps = has_stamps;
   const auto apart = Apart(pictures_clock, odometry);
@@ -271,7 +271,7 @@ Result<image::GrayImage> BagDevice::State::Gray(const bag::Message& message) {
   return image::GrayFromRaw(image->picture, run);
 }
 
-// Nothing: it is left out.
+// Returns nothing for a picture that is left out.
 Result<std::optional<Observation>> BagDevice::State::Look(const bag::Message& message) {
   ++pictures;
   const auto unreadable = [&](const Error& error) -> Result<std::optional<Observation>> {

@@ -12,7 +12,7 @@ using bag::Topic;
 
 constexpr std::size_t kMostListed = 100;
 
-// What is looked for, and how a user says which.
+// A kind of topic, and the flag with which a user names one.
 struct Kind {
   std::vector<std::string> types;
   const char* what;
@@ -62,7 +62,7 @@ Result<Topic> FindNamed(const std::vector<Topic>& topics, const Kind& kind,
   return Fail(ErrorCode::kNotFound, "no topic {}; {}", name, Listed(topics));
 }
 
-// Nothing: there is none.
+// Returns nothing if there is none.
 Result<std::optional<Topic>> FindOnly(const std::vector<Topic>& topics, const Kind& kind) {
   const std::vector<Topic> candidates = Candidates(topics, kind);
   if (candidates.empty()) return std::nullopt;
@@ -71,7 +71,7 @@ Result<std::optional<Topic>> FindOnly(const std::vector<Topic>& topics, const Ki
               kind.what, kind.option, Listed(candidates));
 }
 
-// The one that is named, or the only one there is; nothing: there is none.
+// Returns the named topic, or the only one, or nothing if there is none.
 Result<std::optional<Topic>> Find(const std::vector<Topic>& topics, const Kind& kind,
                                   const std::optional<std::string>& name) {
   std::optional<Topic> found;
@@ -102,7 +102,7 @@ Result<BagTopics> ChooseTopics(const std::vector<Topic>& topics, const BagRun& r
                 fmt::join(kPictures.types, " or "), Listed(topics));
   }
   BagTopics chosen{**image, bag::PlainType((*image)->type) == bag::kCompressedImageType, {}, {}};
-  // Without being asked for one, a choice between several is none.
+  // Several candidates count as none unless one is named.
   const bool named = run.command_topic && !run.command_topic->empty();
   if (run.hear_commands && (named || Candidates(topics, kCommands).size() == 1)) {
     const auto commands = Find(topics, kCommands, run.command_topic);

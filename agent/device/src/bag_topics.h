@@ -12,11 +12,11 @@ struct BagTopics {
   bag::Topic image;
   bool compressed = false;
   std::optional<bag::Topic> odometry;
-  std::optional<bag::Topic> commands;  // where the run asks for them
+  std::optional<bag::Topic> commands;  // if the run asks for them
 };
 
-// Those that `run` names, or that there is no other choice of. kNotFound, kInvalidArgument: what is
-// missing, unfit or not clear; the message lists what there is.
+// Chooses the topics that `run` names, or the only ones there are. kNotFound and kInvalidArgument
+// say which topic is missing, unsuitable or ambiguous, and list the existing ones.
 [[nodiscard]] Result<BagTopics> ChooseTopics(const std::vector<bag::Topic>& topics,
                                              const BagRun& run);
 

@@ -54,7 +54,7 @@ CLI::Option* AddBagOption(CLI::App& command, BagRun& run, CLI::Option* frames) {
   return bag;
 }
 
-// Whoever says how wide his robot is takes it to stand before obstacles.
+// A user who gives the robot's width expects it to stop before obstacles.
 void CheckObstacleOptions(const CLI::App& command, const dds::Ros2Options& topics) {
   for (const char* name : {"--scan-ahead", "--robot-width", "--obstacle-gap"}) {
     const CLI::Option* option = command.get_option_no_throw(name);
@@ -65,7 +65,7 @@ void CheckObstacleOptions(const CLI::App& command, const dds::Ros2Options& topic
   }
 }
 
-// What is asked of them together, once all have been read.
+// These checks need all options to be read.
 void CheckTogether(CLI::App& command, DeviceOptions& options, DeviceUse use) {
   command.callback([&command, &options, use] {
     const bool image = command.count("--image-topic") > 0;
@@ -172,7 +172,7 @@ std::optional<std::array<double, kCount>> ParseNumbers(const std::string& text) 
   return numbers;
 }
 
-// "3,1.5,1,0.01": where, how wide, how high.
+// Parses "3,1.5,1,0.01": place, radius and height.
 Result<RoughGround> ParseRoughPatch(const std::string& text) {
   const auto numbers = ParseNumbers<4>(text);
   if (!numbers || !((*numbers)[2] > 0.0) || (*numbers)[3] < 0.0 || (*numbers)[3] > 0.1) {
@@ -185,7 +185,7 @@ Result<RoughGround> ParseRoughPatch(const std::string& text) {
   return RoughGround{x_m, y_m, radius_m, height_m};
 }
 
-// "9,6.5,90@4": where to, looking which way, and after how many metres.
+// Parses "9,6.5,90@4": place, heading in degrees, and metres driven before.
 Result<CarriedOff> ParseCarriedOff(const std::string& text) {
   const std::size_t at = text.find('@');
   const auto to = ParseNumbers<3>(text.substr(0, at));
@@ -338,7 +338,7 @@ void AddRos2TopicOptions(CLI::App& command, CLI::Option* robot, const std::strin
   const auto add = [&](const std::string& flag, auto& value, const std::string& text) {
     return command.add_option(flag, value, text)->needs(robot)->group(group);
   };
-  // Whoever works with ROS has it in the environment, which must not ask for a robot.
+  // People who work with ROS have it in the environment, where it must not require a robot.
   command.add_option("--ros-domain", topics.domain_id, "The robot's ROS_DOMAIN_ID")
       ->group(group)
       ->check(CLI::Range(0, 230))

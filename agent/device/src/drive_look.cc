@@ -13,13 +13,13 @@ namespace {
 
 constexpr int kLookEvery = 5;  // frames
 constexpr std::size_t kFewestOfFirst = 20;
-constexpr int kGoneAgreed = 5;  // any two views of one building have as many in common
-// Other places of one hall, which look much alike, have had up to 15.
+constexpr int kGoneAgreed = 5;  // any two views of one building share this many
+// Other places in one hall, which look much alike, shared up to 15.
 constexpr int kBackAgreed = 30;
-constexpr double kBackScale = 0.08;  // of its logarithm: that near the place
+constexpr double kBackScale = 0.08;  // in its logarithm, so close to the place
 constexpr double kBackShift = 0.4;   // half widths
 
-// Whether the robot comes back to where it began, and looks the same way.
+// Says whether the robot comes back to its first place with the same heading.
 class FirstView {
  public:
   void Look(const PictureSteps& pictures, double t_s) {
@@ -43,7 +43,7 @@ class FirstView {
   [[nodiscard]] const std::optional<odometry::CameBack>& came_back() const { return came_back_; }
 
  private:
-  static constexpr double kOneComing_s = 3.0;  // what comes later is another time round
+  static constexpr double kOneComing_s = 3.0;  // a later match is another round
 
   vision::ViewDescriber describer_;
   std::optional<view::ViewTable> first_;

@@ -10,7 +10,7 @@
 namespace trailcast::agent {
 namespace {
 
-// To either side: scanners and paths are not exact.
+// A margin on either side, because scanners and paths are not exact.
 constexpr double kMargin_m = 0.05;
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kMost_m = 5.0;

@@ -11,22 +11,25 @@
 namespace trailcast::agent {
 namespace {
 
-// A small base does more; those who carry something should not.
+// A small base can brake harder, but robots that carry something should not.
 constexpr double kDeceleration_mps2 = 0.5;
-// From when something is scanned until the base obeys: a scan's time, and a command's.
+// The time from a scan until the base obeys: one scan and one command.
 constexpr double kReaction_s = 0.3;
-// Slower than this it stands: bases do not creep.
+// Bases do not creep, so a slower robot stands.
 constexpr double kLeast_mps = 0.05;
-// So much further than where it stood its way is to be free: a person does not stand still.
+// The path must be clear so much further than where the robot stopped, because a person does not
+// stand still.
 constexpr double kFurther_m = 0.1;
 constexpr std::chrono::milliseconds kClearFor{500};
-// Less is ahead, not to a side.
+// Anything less counts as ahead, not to a side.
 constexpr double kAside_m = 0.05;
-// Who looks straight back, and so far to either side, sees where a robot backs to.
+// A sensor that looks straight back, and so far to either side, covers the path of a reversing
+// robot.
 constexpr double kBack_rad = std::numbers::pi;
 constexpr double kBehind_rad = 0.4;
 
-// How fast one may be that has so far to go: after the reaction it can still brake.
+// Returns the highest speed from which a robot can still brake within the distance, after the
+// reaction.
 double SpeedWithin(double way_m) {
   if (way_m <= 0.0) return 0.0;
   return kDeceleration_mps2 *
@@ -95,12 +98,12 @@ bool ObstacleWatch::Clear(const motion::VelocityCommand& way) const {
   return !met || met->way_m > options_.gap_m + kFurther_m;
 }
 
-// From what still stands there.
+// The command must lead away from what still stands there.
 bool ObstacleWatch::LeadsAway() const {
   return wanted_ != motion::VelocityCommand{} && Clear(wanted_) && !Clear(stopped_);
 }
 
-// So that it still can stand before what it meets in so far.
+// Slows the command so that the robot can still stop before an obstacle at that distance.
 motion::VelocityCommand ObstacleWatch::Slowed(const motion::VelocityCommand& command,
                                               double way_m) const {
   const double pace_mps = motion::Pace(outline_, command);

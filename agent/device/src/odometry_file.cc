@@ -12,8 +12,8 @@
 namespace trailcast::agent {
 namespace {
 
-// No robot on wheels turns as fast; headings in degrees do, again and again. Odometry that began
-// anew does once.
+// No wheeled robot turns this fast. Headings in degrees seem to, again and again; odometry that was
+// restarted does once.
 constexpr double kFastestTurn_radps = 8.0;
 constexpr double kClearTurn_rad = 0.3;
 constexpr std::size_t kRowsPerJump = 100;

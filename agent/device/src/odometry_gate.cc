@@ -8,10 +8,10 @@
 namespace trailcast::agent {
 namespace {
 
-// Of odometry's own noise and its stamps'.
+// These allow for the noise of odometry and of its stamps.
 constexpr double kSlack_m = 0.05;
 constexpr double kSlack_rad = 0.1;
-// Beyond, a base that was driven when its odometry fell silent has been stopped.
+// After a longer silence of its odometry, a driving base has been stopped.
 constexpr double kLongestGap_s = 1.0;
 
 }  // namespace

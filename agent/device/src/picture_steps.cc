@@ -13,7 +13,7 @@ constexpr double kTracked_px = 0.5;  // a feature's noise
 constexpr std::size_t kFewToTell = 8;
 constexpr int kFewToFollow = 30;  // of the tracker's 60
 
-// Moves a feature to where it would be if a turn shifted all of the picture alike.
+// Moves a feature to where it would be if a turn shifted the whole picture equally.
 route::TrackedFeature Unbent(route::TrackedFeature feature, double focal_px) {
   feature.u_px = focal_px * std::atan(feature.u_px / focal_px);
   return feature;

@@ -10,18 +10,18 @@
 
 namespace trailcast::agent {
 
-// How a camera's picture moves from frame to frame.
+// Measures how a camera's picture moves from frame to frame.
 class PictureSteps {
  public:
-  // `focal_share`: the camera's focal length, of its picture's width.
+  // `focal_share` is the camera's focal length as a share of its picture's width.
   explicit PictureSteps(const vision::IntakeOptions& intake,
                         double focal_share = route::kUsualFocalShare)
       : intake_(intake), focal_share_(focal_share) {}
 
-  // Since the frame before; nothing: too little is in both.
+  // Returns the step since the frame before, or nothing if the two have too little in common.
   [[nodiscard]] std::optional<odometry::PictureStep> Add(const image::GrayImage& frame);
 
-  // The last one, as the intake makes it. There was one.
+  // Returns the last picture as the intake made it. Needs one.
   [[nodiscard]] const image::GrayImage& picture() const { return *picture_; }
   [[nodiscard]] double focal_share() const { return focal_share_; }
 

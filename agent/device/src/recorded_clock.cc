@@ -12,14 +12,14 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-// The recorder's order is that of arrival, give or take what its threads make of it.
+// The recorder writes in the order of arrival, except for the disorder of its threads.
 constexpr milliseconds kRecordersOutOfTurn{200};
-// A clock that goes on by more between two messages was set, or there was a pause.
+// If a clock advances by more between two messages, it was set, or there was a pause.
 constexpr milliseconds kLongestUsual{1000};
 constexpr int kTimesUsualPause = 3;
 constexpr milliseconds kUsualOfNone{100};
 
-// The pause that half of all messages come within; nothing where time never goes on.
+// Returns the median pause between messages, or nothing if time never advances.
 template <typename TimeOf>
 std::optional<nanoseconds> UsualPause(const std::vector<RecordedTimes>& topic,
                                       const TimeOf& time_of) {
@@ -34,7 +34,7 @@ std::optional<nanoseconds> UsualPause(const std::vector<RecordedTimes>& topic,
   return *middle;
 }
 
-// When messages came, by the recorder's clock as long as that goes on.
+// Tells when messages came, by the recorder's clock as long as that advances.
 class Arrivals {
  public:
   explicit Arrivals(const std::vector<RecordedTimes>& topic)
@@ -47,7 +47,7 @@ class Arrivals {
         came_(logged_at_),
         last_(logged_at_) {}
 
-  // Returns it for the message after the one that was asked for before.
+  // Must be called for one message after the other.
   [[nodiscard]] SensorTime Came(std::size_t i) {
     last_ = std::max(last_ + nanoseconds(1), After(i));
     return last_;
@@ -61,7 +61,7 @@ class Arrivals {
     const nanoseconds logged = topic_[i].logged_at - logged_at_;
     if (logged < nanoseconds(0) && logged > -kRecordersOutOfTurn) return last_;
     if (!IsUsual(logged) && i + 1 < topic_.size()) {
-      // Its time alone is wrong where the next one goes on from the one before.
+      // Only its own time is wrong if the next message continues from the one before.
       const nanoseconds next = topic_[i + 1].logged_at - logged_at_;
       if (IsUsual(next)) return came_ + next / 2;
     }
@@ -80,10 +80,10 @@ class Arrivals {
   const std::vector<RecordedTimes>& topic_;
   nanoseconds usual_;
   nanoseconds longest_;
-  // These are the times of the last message that came by the recorder's clock.
+  // These are the times of the last message whose recorded time was right.
   nanoseconds logged_at_;
   SensorTime came_;
-  SensorTime last_;  // of the last of all
+  SensorTime last_;  // the latest of all
 };
 
 }  // namespace

@@ -6,8 +6,8 @@
 namespace trailcast::agent {
 namespace {
 
-constexpr double kUsual = 0.9;       // share of all samples that is slower, or follows sooner
-constexpr double kTimesUsual = 3.0;  // what a base can do at most
+constexpr double kUsual = 0.9;       // this share of all samples is slower, or has a shorter pause
+constexpr double kTimesUsual = 3.0;  // the most that a base can do
 
 double QuantileOf(std::vector<double>& values) {
   const auto at =
@@ -16,7 +16,8 @@ double QuantileOf(std::vector<double>& values) {
   return *at;
 }
 
-// Of a base whose drive this is: it may be a car's, and its odometry may come once a second.
+// The drive's own samples set the bounds, because the base may be a car's and its odometry may come
+// once a second.
 GateOptions GateOf(const std::vector<RecordedPoses::Sample>& samples) {
   std::vector<double> gaps_s;
   std::vector<double> speeds_mps;

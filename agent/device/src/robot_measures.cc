@@ -27,13 +27,12 @@ constexpr double kTurns_rad = 0.02;  // more than odometry's noise
 
 double SecondsOf(steady_clock::time_point time) { return Seconds(time.time_since_epoch()); }
 
-// How many a second, by their times.
+// Returns how many came a second.
 double Rate(int count, double first_s, double last_s) {
   return count > 1 && last_s > first_s ? (count - 1) / (last_s - first_s) : 0.0;
 }
 
-// How far the features of the last picture have moved to the right, and down, summed up, as a share
-// of the width.
+// Sums how far the features have moved to the right, and down, as a share of the width.
 class PictureShift {
  public:
   explicit PictureShift(const vision::IntakeOptions& intake) : steps_(intake) {}
@@ -84,7 +83,7 @@ class Measuring {
   std::vector<Coming> ranges_come_;
   std::vector<double> came_s_;  // pictures
   image::PictureRun pictures_;
-  // By stamps; odometry's also by when it came.
+  // By stamps; odometry is also kept by arrival.
   std::vector<odometry::TimedValue> shifts_;
   std::vector<odometry::TimedValue> headings_;
   std::vector<odometry::TimedValue> headings_came_;
@@ -147,7 +146,7 @@ void Measuring::Listen(milliseconds duration,
       } else if (const auto* range = std::get_if<dds::Ros2Range>(&sensed)) {
         Note(*range, now);
       } else if (std::holds_alternative<dds::Ros2Command>(sensed)) {
-        continue;  // told by whoever drives it meanwhile
+        continue;  // somebody else's command meanwhile
       } else if (auto* jpeg = std::get_if<dds::Ros2CompressedImage>(&sensed)) {
         Note(Ros2Picture(std::move(*jpeg)), now);
       } else {
@@ -157,7 +156,7 @@ void Measuring::Listen(milliseconds duration,
   }
 }
 
-// To the left, and back.
+// Turns to the left and back.
 TurnMeasures Measuring::Turn() {
   const motion::VelocityCommand left = options_.turn_command;
   TurnMeasures turn;

@@ -10,21 +10,21 @@
 namespace trailcast::agent {
 namespace {
 
-// Less than this, and a base may well stand: friction, dead bands.
+// Below these a base may stand because of friction and dead bands.
 constexpr double kLeastDrive_mps = 0.05;
 constexpr double kLeastTurn_radps = 0.15;
-// A base takes its time to get going from a stand, where it does no harm.
+// A base takes this long to start from a stand, where it does no harm.
 constexpr std::chrono::milliseconds kToGetGoing{1000};
-// Of the way asked for: less, and it did not obey.
+// A base that drives a smaller share of what was commanded did not obey.
 constexpr double kLeastShare = 0.1;
-// Weaving to and fro comes to nothing, and so tells nothing.
+// Weaving adds up to less than this, and so shows nothing.
 constexpr double kLeastAsked_m = 0.01;
-// After less a picture without noise may be the same.
+// A picture without noise may be the same after less motion.
 constexpr double kLeastSeen_m = 0.01;
-// A base that stands is left alone for so long before it is tried again, each time twice as long.
+// A base that stands rests for so long before it is tried again, each time twice as long.
 constexpr std::chrono::milliseconds kFirstRest{1000};
 constexpr std::chrono::milliseconds kLongestRest{4000};
-// Half a small robot's width: turns as ways.
+// Half a small robot's width converts turns to distances.
 constexpr double kArm_m = 0.15;
 
 bool Drives(const motion::VelocityCommand& command) {
@@ -44,13 +44,13 @@ double Way(const motion::Pose2& from, const motion::Pose2& to) {
 void RobotWatch::SawFrame(Time now, bool changed) {
   frame_at_ = now;
   if (changed) frozen_ = false;
-  // A picture of a standing robot may well stay as it is.
+  // A standing robot's picture may well stay the same.
   const bool anew = changed || Stands(told_);
   if (anew) anew_from_ = pose_;
   if (anew || StandsYet()) anew_at_ = now;
 }
 
-// A base may take its time. Without odometry it is taken to do as it is told.
+// A base may take its time. Without odometry it is taken to obey.
 bool RobotWatch::StandsYet() const {
   return has_odometry_ && Way(anew_from_, pose_) < kLeastSeen_m;
 }
@@ -70,7 +70,7 @@ void RobotWatch::Told(const motion::VelocityCommand& command) {
   obeyed_ = false;
 }
 
-// Looks back over the last while of driving: how far was asked for, and how far it went.
+// Compares the commanded and the driven distance over the last while of driving.
 void RobotWatch::JudgeBase(Time now) {
   const auto span = obeyed_ ? timeout_ : std::max(timeout_, kToGetGoing);
   while (driven_.size() > 2 && driven_.back().stamp - driven_[1].stamp >= span) {

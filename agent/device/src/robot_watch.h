@@ -11,16 +11,16 @@
 
 namespace trailcast::agent {
 
-// Notices that a robot's camera, odometry, scanner, range sensors or base does no longer do its
-// part: no picture, or the same one again and again while the robot moves; no odometry; no scan; no
-// range; a base that stands although it was told to drive. Told of all that comes and goes; reads
-// no clock itself. A base that stands is in trouble for a second or a few; then it is to be tried:
-// it has moved, or stands again.
+// Notices when a robot's camera, odometry, scanner, range sensors or base fails: there is no
+// picture, or the same one again and again while the robot moves; there is no odometry, no scan or
+// no range; the base stands although it has a command. Its caller passes on everything; it reads no
+// clock itself. A standing base is in trouble for a second or a few, and is then to be tried; it
+// has moved, or stands again.
 class RobotWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  // What stays away for longer than `timeout` has failed.
+  // A part that is silent for longer than `timeout` has failed.
   RobotWatch(std::chrono::milliseconds timeout, bool has_odometry, bool has_scan,
              std::size_t range_sensors)
       : timeout_(timeout),
@@ -28,26 +28,26 @@ class RobotWatch {
         has_scan_(has_scan),
         range_at_(range_sensors) {}
 
-  // `changed`: not the very same pixels as the frame before.
+  // `changed` means that not all pixels equal the frame before.
   void SawFrame(Time now, bool changed);
   void SawOdometry(Time now, SensorTime stamp, const motion::Pose2& pose);
   void SawScan(Time now) { scan_at_ = now; }
   void SawRange(Time now, std::size_t sensor) { range_at_[sensor] = now; }
-  // What the base was told, until the next time.
+  // Notes the base's command, which holds until the next one.
   void Told(const motion::VelocityCommand& command);
 
   struct Trouble {
-    // What stands in the way is no failure, and found by ObstacleWatch; that several publish one
-    // topic, by who hears them.
+    // An obstacle is no failure; ObstacleWatch finds it. The reader of a topic finds that several
+    // publish it.
     enum class Part { kCamera, kOdometry, kScan, kRange, kBase, kObstacle, kCrowd };
     Part part = Part::kCamera;
     std::string what;        // one line for people
-    std::size_t sensor = 0;  // of a range
+    std::size_t sensor = 0;  // for a range sensor
   };
-  // What is wrong now, if anything. Before the first frame nothing is.
+  // Returns what is wrong now, if anything. Nothing is before the first frame.
   [[nodiscard]] std::optional<Trouble> Check(Time now);
-  // Since when the base has been standing against what it was told, tries included; nothing: it
-  // obeys.
+  // Returns since when the base has stood in spite of its commands, including tries, or nothing if
+  // it obeys.
   [[nodiscard]] std::optional<Time> base_stands_since() const {
     return stand_ ? std::optional(stand_->since) : std::nullopt;
   }
@@ -56,7 +56,7 @@ class RobotWatch {
   struct Stand {
     Time since;
     Time try_at;
-    std::chrono::milliseconds rest;  // until then
+    std::chrono::milliseconds rest;  // how long it is left alone
   };
   struct Sample {
     SensorTime stamp{};
@@ -77,7 +77,7 @@ class RobotWatch {
   bool has_scan_;
   motion::VelocityCommand told_;
   std::optional<Time> frame_at_;
-  Time anew_at_{};           // since when pictures should change
+  Time anew_at_{};           // since when pictures should have changed
   motion::Pose2 anew_from_;  // where the robot was then
   bool frozen_ = false;
   std::optional<Time> odometry_at_;

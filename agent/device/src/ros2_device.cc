@@ -16,15 +16,15 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// A robot in lockstep stands until it is answered: only one that is gone is silent for so long.
+// A robot in lockstep waits for its answer, so only one that is gone is silent for so long.
 constexpr std::chrono::hours kLockstepTimeout{24};
-// Odometry of a frame's own moment may arrive a little after the frame.
+// Odometry of a frame's moment may arrive a little after the frame.
 constexpr milliseconds kOdometryLate{60};
-// What a base was told longer ago it may not do any more.
+// A base may no longer obey a command that is older than this.
 constexpr std::chrono::seconds kCommandHolds{1};
-// What a battery said longer ago is not known any more. Slow ones speak twice a minute.
+// An older charge counts as unknown. Slow batteries report twice a minute.
 constexpr std::chrono::minutes kBatteryCounts{2};
-// No base that is driven by our commands or by a person does more; those told to be faster do.
+// No base that obeys our commands or a person exceeds these, except one with higher limits.
 constexpr double kLeastGate_mps = 3.0;
 constexpr double kLeastGate_radps = 6.0;
 
@@ -45,7 +45,7 @@ Ros2Device::State::State(const Ros2Run& device, std::unique_ptr<dds::Ros2Driver>
             device.lockstep ? SensedPoses::Clocks::kOne : SensedPoses::Clocks::kMayDiffer),
       still(device.still_at_end),
       still_by_sight(has_odometry() ? milliseconds(0) : device.still_at_end) {
-  // What the topics say counts.
+  // The topics decide.
   run.obstacles.range_mounts.resize(run.topics.ranges.size());
   if (has_scan() || !run.topics.ranges.empty()) obstacles.emplace(run.obstacles, has_scan());
 }
@@ -64,7 +64,7 @@ Error Ros2Device::State::Failure(const RobotWatch::Trouble& what) const {
 
 std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) {
   if (deaf) return deaf;
-  // Whoever stands in the way may stand there as long as he likes.
+  // An obstacle may stay as long as it likes.
   if (trouble && trouble->part == RobotWatch::Trouble::Part::kObstacle) {
     waiting_since = now;
     return std::nullopt;
@@ -76,7 +76,7 @@ std::optional<Error> Ros2Device::State::GiveUp(steady_clock::time_point now) {
   }
   if (stands_since && trouble && trouble->part == RobotWatch::Trouble::Part::kBase)
     return std::nullopt;
-  // Without trouble it is the next frame that is waited for, which takes its time.
+  // Without trouble, Next waits for the next frame, which takes its time.
   const auto patience =
       trouble ? run.patience : std::max(run.patience, run.sensor_timeout + kOdometryLate);
   if (now - waiting_since <= patience) return std::nullopt;
@@ -107,7 +107,7 @@ std::string Ros2Device::State::Missing() const {
 
 std::string Ros2Device::State::Ailment() const {
   if (deaf) return deaf->message;
-  // Who stands in the way is no failure.
+  // An obstacle is no failure.
   if (trouble && trouble->part != RobotWatch::Trouble::Part::kObstacle) {
     return Failure(*trouble).message;
   }
@@ -116,7 +116,7 @@ std::string Ros2Device::State::Ailment() const {
   return all_came ? std::string() : Missing();
 }
 
-// Why it stands against what it was told.
+// Returns why the robot stands in spite of its commands.
 RobotDevice::Halt Ros2Device::State::Halted() const {
   if (trouble) {
     return {Failure(*trouble).message, trouble->part != RobotWatch::Trouble::Part::kObstacle};
@@ -125,7 +125,7 @@ RobotDevice::Halt Ros2Device::State::Halted() const {
   return {};
 }
 
-// Tells who asked for it when trouble begins and ends: that a base stands, while it is tried, too.
+// Reports the beginning and the end of trouble. A standing base stays reported while it is tried.
 void Ros2Device::State::ShareTrouble() {
   if (!trouble && watch.base_stands_since()) return;
   const Halt now = Halted();
@@ -151,7 +151,7 @@ void Ros2Device::State::ShareNews() {
   }
 }
 
-// An IMU that says nothing fails nobody; but whoever asked for it should know.
+// A silent IMU is no failure, but whoever asked for it should know.
 std::vector<motion::ImuSample> Ros2Device::State::TakeImu() {
   constexpr int kTellAfter = 60;
   if (has_imu() && frames_without_imu >= 0) {
@@ -172,7 +172,7 @@ Ros2Device::Ros2Device(const Ros2Run& run, std::unique_ptr<dds::Ros2Driver> driv
     if (heard) return;
     const std::lock_guard guard(s->lock);
     s->deaf = std::move(heard.error());
-    // Nobody else stops it before the loop that drives comes back. That does it again.
+    // Nobody else stops it until the loop that drives is back, and that stops it again.
     (void)Guarded("stopping the robot", [s] { return s->Tell({}); });
     s->news.notify_one();
   });
@@ -195,7 +195,7 @@ Result<std::unique_ptr<Ros2Device>> Ros2Device::Open(const Ros2Run& run) {
   return std::make_unique<Ros2Device>(run, *std::move(driver));
 }
 
-// The next frame, with odometry if there is any; nothing when it is over.
+// Returns the next frame, with odometry if there is any, or nothing when it is over.
 Result<std::optional<Ros2Frame>> Ros2Device::State::Await(std::unique_lock<std::mutex>& guard) {
   if (run.lockstep && !answered) {
     answered = true;
@@ -216,7 +216,7 @@ Result<std::optional<Ros2Frame>> Ros2Device::State::Await(std::unique_lock<std::
   return frame;
 }
 
-// A damaged picture is one less.
+// A damaged picture is left out.
 void Ros2Device::State::Leave(const Error& damage) {
   why_unreadable = damage.message;
   if (++unreadable == 1) spdlog::warn("a picture is left out: {}", damage.message);
@@ -263,7 +263,7 @@ Result<void> Ros2Device::Drive(const motion::VelocityCommand& command) {
   State& s = *state_;
   const std::lock_guard guard(s.lock);
   s.answered = true;
-  // What an old picture led to is no more to be done.
+  // A command that follows from an old picture is not obeyed.
   const bool old = !s.run.lockstep && s.run.clock() - s.given_came_at > s.run.sensor_timeout;
   return s.Tell(s.deaf || s.trouble || old ? motion::VelocityCommand{} : s.Within(command));
 }

@@ -1,4 +1,4 @@
-// A ROS 2 robot as it is heard, and told to stand when in doubt.
+// This part of the device hears a ROS 2 robot, and stops it when in doubt.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace {
 
 using std::chrono::steady_clock;
 
-// That the robot shall stand is said so long: a base may miss what is said once.
+// A stop is repeated for so long, because a base may miss a single command.
 constexpr std::chrono::seconds kSayAgain{1};
-// A command that was given longer ago than a base needs to reach it is no more on its way.
+// A command older than this has reached the base or is lost.
 constexpr double kLongestRamp_s = 0.1;
-// So gently a base is tried that stood against its commands.
+// A base that stood in spite of its commands is tried this gently.
 constexpr double kTrySpeed_mps = 0.15;
 constexpr double kTryTurn_radps = 0.3;
-// Of an IMU, between two frames: a second's worth of a fast one.
+// The most IMU samples between two frames: a second of a fast one.
 constexpr std::size_t kMostImu = 1000;
 
 }  // namespace
@@ -75,7 +75,7 @@ void Ros2Device::State::KeepFrame(Ros2Picture picture, steady_clock::time_point 
   const std::vector<std::uint8_t>& bytes = BytesOf(picture);
   const bool changed = bytes != last_bytes;
   if (last_stamp == StampOf(picture) && (run.lockstep || !changed)) {
-    // In lockstep: the robot did not get the answer, or does not yet have it.
+    // In lockstep, the robot did not get the answer, or does not have it yet.
     if (run.lockstep && answered && given == last_stamp) (void)driver->Publish({*given, told});
     return;
   }
@@ -116,7 +116,7 @@ void Ros2Device::State::SlowDown() {
   if (!obstacles->waits() && slower != told) (void)Say(slower);
 }
 
-// Also when the loop that drives does not come back: a command is good for sensor_timeout.
+// This also works if the loop that drives does not come back: a command holds for sensor_timeout.
 void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
   trouble = watch.Check(now);
   if (const std::string topic = driver->crowded(); !topic.empty()) {
@@ -140,12 +140,12 @@ void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
   const bool stale = !run.lockstep && now - told_at > run.sensor_timeout;
   if (!trouble && !stale && !waits) return;
   if (told != motion::VelocityCommand{}) stop_said_until = now + kSayAgain;
-  // What cannot be handed over is said again, too.
+  // A stop that could not be sent is repeated as well.
   if (now <= stop_said_until) (void)Tell({});
 }
 
-// The time of a robot in lockstep passes only when its frames are answered, also while it waits for
-// its way to be free.
+// The time of a robot in lockstep advances only when its frames are answered, even while it waits
+// for an obstacle.
 void Ros2Device::State::AnswerByStanding() {
   if (!newest) return;
   given_before = std::exchange(given, newest->stamp());
@@ -159,7 +159,7 @@ Result<void> Ros2Device::State::Tell(const motion::VelocityCommand& command) {
   return Say(command);
 }
 
-// Without making what was told last good for longer.
+// Sends the command, without extending the time for which the last one holds.
 Result<void> Ros2Device::State::Say(const motion::VelocityCommand& command) {
   told = command;
   drove = drove || command != motion::VelocityCommand{};
@@ -167,14 +167,14 @@ Result<void> Ros2Device::State::Say(const motion::VelocityCommand& command) {
   return driver->Publish({CommandStamp(), command});
 }
 
-// A base in real time brakes at what is old by its own clock, which is its odometry's; a robot in
+// A base in real time judges a command's age by its own clock, which is its odometry's. A robot in
 // lockstep waits for the answer to its frame.
 SensorTime Ros2Device::State::CommandStamp() const {
   if (!run.lockstep && poses.has_odometry()) return poses.newest_stamp();
   return given.value_or(SensorTime{});
 }
 
-// Whoever had to be stopped speeds up again from standing.
+// A robot that had to be stopped speeds up from standing again.
 motion::VelocityCommand Ros2Device::State::Shaped(const motion::VelocityCommand& wanted) const {
   motion::DriveLimits limits = run.limits;
   if (watch.base_stands_since()) {

@@ -11,14 +11,14 @@
 
 namespace trailcast::agent {
 
-// A picture of a ROS 2 camera, as it came.
+// A picture of a ROS 2 camera as it came.
 using Ros2Picture = std::variant<dds::Ros2Image, dds::Ros2CompressedImage>;
 
 [[nodiscard]] SensorTime StampOf(const Ros2Picture& picture);
 [[nodiscard]] const std::vector<std::uint8_t>& BytesOf(const Ros2Picture& picture);
 
-// The camera's next picture. Messages begin with `topic`. kCorrupt for a picture that is damaged,
-// so that another may be well; anything else holds for the camera.
+// Converts the camera's next picture. Messages begin with `topic`. kCorrupt means that this picture
+// is damaged, but another may be well; any other error holds for the camera.
 [[nodiscard]] Result<image::GrayImage> Gray(const Ros2Picture& picture, const std::string& topic,
                                             image::PictureRun& run);
 

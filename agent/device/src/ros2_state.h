@@ -20,20 +20,20 @@
 #include "agent/device/src/still_watch.h"
 #include "services/motion/battery.h"
 
-// What the two threads of a ROS 2 robot's device share: the one that hears the robot and stops it
-// (ros2_hearing.cc), and the one that drives it (ros2_device.cc).
+// This is the state that the two threads of a ROS 2 robot's device share: the one that hears the
+// robot and stops it (ros2_hearing.cc), and the one that drives it (ros2_device.cc).
 namespace trailcast::agent {
 
 // How long either thread listens at a time.
 constexpr std::chrono::milliseconds kListen{20};
 
-// The robot's own time, where it is that which counts.
+// Converts the robot's own time, where that is the one that counts.
 [[nodiscard]] inline std::chrono::steady_clock::time_point AsTime(SensorTime stamp) {
   return std::chrono::steady_clock::time_point(
       std::chrono::duration_cast<std::chrono::steady_clock::duration>(stamp));
 }
 
-// A picture, until Next takes it.
+// A picture until Next takes it.
 struct Ros2Frame {
   [[nodiscard]] SensorTime stamp() const { return StampOf(picture); }
 
@@ -49,7 +49,7 @@ struct Ros2Device::State {
   [[nodiscard]] bool has_scan() const { return !run.topics.scan.empty(); }
   [[nodiscard]] bool has_imu() const { return !run.topics.imu.empty(); }
 
-  // The hearing thread's.
+  // For the hearing thread.
   void Hear();
   void Keep(dds::Ros2Sensed sensed, std::chrono::steady_clock::time_point now);
   void KeepFrame(Ros2Picture picture, std::chrono::steady_clock::time_point now);
@@ -61,14 +61,14 @@ struct Ros2Device::State {
   void AnswerByStanding();
   void StopIfInDoubt(std::chrono::steady_clock::time_point now);
 
-  // Any thread, with the lock.
+  // For any thread, with the lock.
   Result<void> Tell(const motion::VelocityCommand& command);
   Result<void> Say(const motion::VelocityCommand& command);
   [[nodiscard]] SensorTime CommandStamp() const;
   [[nodiscard]] motion::VelocityCommand Shaped(const motion::VelocityCommand& wanted) const;
   [[nodiscard]] motion::VelocityCommand Within(const motion::VelocityCommand& wanted);
 
-  // The driving thread's, with the lock.
+  // For the driving thread, with the lock.
   [[nodiscard]] bool ready(std::chrono::steady_clock::time_point now) const;
   [[nodiscard]] Halt Halted() const;
   [[nodiscard]] std::optional<Error> GiveUp(std::chrono::steady_clock::time_point now);
@@ -85,44 +85,44 @@ struct Ros2Device::State {
   std::unique_ptr<dds::Ros2Driver> driver;
   Trouble tell = [](const Halt&) {};
 
-  std::mutex lock;  // of all below
+  std::mutex lock;  // guards everything below
   std::condition_variable news;
   bool ending = false;
-  std::optional<Error> deaf;  // why the robot is heard no more
+  std::optional<Error> deaf;  // why the robot can no longer be heard
   RobotWatch watch;
-  std::optional<ObstacleWatch> obstacles;  // with a scanner or range sensors
+  std::optional<ObstacleWatch> obstacles;  // if there are a scanner or range sensors
   bool by_hand = false;                    // Next does not wait for the way to be free
-  bool backs_unseen = false;               // it is told to
+  bool backs_unseen = false;               // its command leads there
   SensedPoses poses;
-  bool odometry_stands = false;                  // it comes, with stamps that do not advance
-  std::optional<motion::VelocityCommand> heard;  // what somebody else told the base last
+  bool odometry_stands = false;                  // it comes with stamps that do not advance
+  std::optional<motion::VelocityCommand> heard;  // the last command from somebody else
   std::chrono::steady_clock::time_point heard_at;
-  std::vector<motion::ImuSample> imu;  // since the last frame that was handed out
+  std::vector<motion::ImuSample> imu;  // since the last frame that Next returned
   motion::BatteryGauge gauge;
   std::optional<std::uint8_t> battery_percent;
   std::chrono::steady_clock::time_point battery_heard_at;
-  int frames_without_imu = 0;  // that were, until the first sample comes
+  int frames_without_imu = 0;  // until the first sample comes
   std::optional<Ros2Frame> newest;
-  std::chrono::steady_clock::time_point unserved_since;  // since when there has been a newest frame
-  std::optional<SensorTime> last_stamp;                  // of the frame before, handed out or not
+  std::chrono::steady_clock::time_point unserved_since;  // since when the newest frame waits
+  std::optional<SensorTime> last_stamp;                  // of the frame before, returned or not
   std::vector<std::uint8_t> last_bytes;                  // of the frame before
   std::optional<SensorTime> given;  // the last frame that Next took, by its stamp
   std::optional<SensorTime> given_before;
   std::chrono::steady_clock::time_point given_came_at;
   bool answered = true;        // with a command
-  image::PictureRun pictures;  // the driving thread's alone
+  image::PictureRun pictures;  // for the driving thread alone
   int unreadable = 0;          // pictures that were left out
   std::string why_unreadable;
-  motion::VelocityCommand told;  // what the base does
-  bool drove = false;            // it was told to move before
+  motion::VelocityCommand told;  // the base's present command
+  bool drove = false;            // an earlier command moved it
   std::chrono::steady_clock::time_point told_at;
   std::chrono::steady_clock::time_point stop_said_until;
   std::optional<RobotWatch::Trouble> trouble;
   std::chrono::steady_clock::time_point waiting_since;  // for a frame
   Halt shared;
-  std::vector<std::string> told_news;  // until TakeNews, the first of them
+  std::vector<std::string> told_news;  // until TakeNews, at most the first few
   StillWatch still;
-  StillPictureWatch still_by_sight;  // without odometry; the driving thread's, without the lock
+  StillPictureWatch still_by_sight;  // without odometry; for the driving thread, without the lock
   int width_px = 0;
   int height_px = 0;
 

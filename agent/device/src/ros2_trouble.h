@@ -6,26 +6,26 @@
 #include "agent/device/src/robot_watch.h"
 #include "services/dds/ros2_link.h"
 
-// What is wrong with a ROS 2 robot, in words: one line for people.
+// These describe what is wrong with a ROS 2 robot, in one line for people.
 namespace trailcast::agent {
 
-// `stamps_stand`: odometry comes, and says nothing new.
+// `stamps_stand` means that odometry comes, but with the same stamp.
 [[nodiscard]] std::string TroubleText(const dds::Ros2Options& topics,
                                       const dds::Ros2Driver::Peers& peers,
                                       const RobotWatch::Trouble& trouble, bool stamps_stand);
 
-// What came of a robot since the agent began.
+// What has come from a robot since the agent began.
 struct Came {
   bool pictures = false;
   bool odometry = false;
   bool scan = false;
-  std::optional<std::size_t> silent_range;  // the first sensor of which nothing came
+  std::optional<std::size_t> silent_range;  // the first sensor that has given nothing
 };
-// Of a robot that is not there, or not all of it.
+// For a robot that is missing, completely or in part.
 [[nodiscard]] std::string WhoIsMissing(const dds::Ros2Options& topics,
                                        const dds::Ros2Driver::Peers& peers, const Came& came);
 
-// Of commands.
+// For commands without a listener.
 [[nodiscard]] std::string NobodyListens(const dds::Ros2Options& topics,
                                         const dds::Ros2Driver::Peers& peers);
 

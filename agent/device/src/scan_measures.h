@@ -7,7 +7,7 @@
 
 namespace trailcast::agent {
 
-// What becomes of a scanner's or a range sensor's samples, as they come.
+// Measures a scanner's or a range sensor's samples as they come.
 class Coming {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -17,7 +17,7 @@ class Coming {
     last_ = now;
   }
   [[nodiscard]] int count() const { return count_; }
-  // How many a second.
+  // Returns how many come a second.
   [[nodiscard]] double rate_hz() const;
 
  private:

@@ -12,11 +12,11 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-// A picture may be under way for so long: what arrives that much later than its stamp says is of
-// the same clock all the same. Once they are taken for two, less makes them one again.
+// A picture may take so long to arrive and still be of the same clock as odometry. Once two clocks
+// are assumed, the second bound makes them one again.
 constexpr milliseconds kSensorsSameClock{500};
 constexpr milliseconds kSensorsSameClockAgain{400};
-// Clocks are compared by the quickest samples of a period, and by the middle of some of these.
+// Clocks are compared by the quickest samples of a period, and by the median of some periods.
 constexpr milliseconds kPeriod{500};
 constexpr milliseconds kLongestPeriod{1000};
 constexpr std::size_t kPeriods = 7;
@@ -56,14 +56,15 @@ std::optional<SensorTime> SensedPoses::AddFrame(SensorTime stamp, Time came_at) 
   return taken;
 }
 
-// Of one period each time: a simulator's clock that is slow does not set them apart.
+// Each period is compared by itself, so that a simulator's slow clock does not look like two
+// clocks.
 void SensedPoses::CompareClocks(Time now) {
   const nanoseconds period = now - period_from_;
   if (clocks_ == Clocks::kOne || period < kPeriod) return;
   period_from_ = now;
   const auto frames = frame_clock_.TakeBehind();
   const auto odometry = odometry_clock_.TakeBehind();
-  // In a longer one nothing came, and a simulator's clock may have stood between the two.
+  // In a longer period nothing came, and a simulator's clock may have stood meanwhile.
   if (!frames || !odometry || period > kLongestPeriod) return;
   apart_.push_back(*frames - *odometry);
   if (apart_.size() > kPeriods) apart_.pop_front();

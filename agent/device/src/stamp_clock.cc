@@ -11,10 +11,9 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-// A sample that is so much older than the one before was overtaken by it; beyond, the clock was
-// set.
+// A sample this much older than the one before was overtaken by it. Beyond that, the clock was set.
 constexpr milliseconds kOutOfTurn{200};
-// A pause ahead of which the time of arrival knows nothing: the clock was set.
+// If the arrival does not show a pause ahead of this length, the clock was set.
 constexpr milliseconds kAhead{1000};
 constexpr milliseconds kLeastLater{1};
 

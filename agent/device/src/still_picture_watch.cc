@@ -9,35 +9,37 @@
 namespace trailcast::agent {
 namespace {
 
-// Standing is told no more exactly than this, and no picture between costs anything.
+// Standing need not be known more precisely than this, so the pictures in between are skipped.
 constexpr std::chrono::milliseconds kLooksEvery{100};
-// Light changes: after so long a picture is kept anew, unless somebody is in it who was not before.
+// Light changes, so after this time a new picture is kept, unless somebody is in it who was not
+// there before.
 constexpr std::chrono::milliseconds kKept{1000};
 constexpr double kUnhidden = 0.8;
-// What hides the view for longer is there to stay.
+// Something that hides the view for longer is there to stay.
 constexpr std::chrono::milliseconds kHidden{2000};
-// What is seen and may as well have moved.
+// For so long the view may be uncertain, with as many signs of motion as of standing.
 constexpr std::chrono::milliseconds kInDoubt{300};
-// Fewer agree by chance.
+// Fewer features agree by chance.
 constexpr std::size_t kFewestAgree = 8;
-// So much of the kept picture has to be seen where it was. Of what is seen of it as much has to
-// agree, but a fast drive leaves little of it.
+// This share of the kept picture must be seen where it was. The same share of what is still visible
+// must agree, although a fast drive leaves little of it.
 constexpr double kMost = 0.5;
 constexpr double kSomeMove = 0.25;
-// Of a tracked feature.
+// The noise of a tracked feature.
 constexpr double kNoise_px = 0.3;
-// Beside the flow of the whole picture, and as a share of it: near things move more than far ones.
+// The tolerance beside the flow of the whole picture, and as a share of that flow, because near
+// things move more than far ones.
 constexpr double kAgrees_px = 1.0;
 constexpr double kAgrees_share = 0.3;
-// Shaking of a robot that stands, as a share of the picture's width, and growth. Who drives half a
-// metre a second towards what is 50 m away makes the picture grow by that share within a third of a
-// second.
+// The shaking of a standing robot, as a share of the picture's width, and as growth. A robot that
+// drives at half a metre a second towards things 50 m away makes the picture grow by that share
+// within a third of a second.
 constexpr double kStill_flow = 0.003;
 constexpr double kStill_growth = 0.003;
 constexpr double kSureSigmas = 2.0;
 
-// Each feature counts for as much of the picture as it has for itself among the kept ones, so that
-// a person with many features is no larger than he looks.
+// Weighs each feature by the part of the picture that it has for itself among the kept ones, so
+// that a person with many features counts no more than his size.
 class Areas {
  public:
   Areas(const std::vector<route::TrackedFeature>& features, int width, int height)
@@ -69,7 +71,7 @@ class Areas {
   std::array<int, std::size_t{kColumns} * kRows> count_{};
 };
 
-// What the flow moves a feature by.
+// How far the flow moves a feature.
 struct Shift {
   double u_px = 0.0;
   double v_px = 0.0;
@@ -87,7 +89,7 @@ bool Agrees(const teach::MovedFeature& feature, const teach::PictureFlow& flow) 
   return off_px <= kAgrees_px + kAgrees_share * by.length();
 }
 
-// How sure the growth of a flow is that these agree on: a variance.
+// Returns the variance of the growth that these features agree on.
 double GrowthVariance(const std::vector<teach::MovedFeature>& agreed,
                       const teach::PictureFlow& flow) {
   double off2 = 0.0;
@@ -102,7 +104,7 @@ double GrowthVariance(const std::vector<teach::MovedFeature>& agreed,
     squares += Square(before.u_px) + Square(before.v_px);
   }
   const auto count = static_cast<double>(agreed.size());
-  // Of features in one place growth and shift are the same.
+  // Features at one place cannot tell growth from shift.
   const double spread2 = squares - (Square(sum_u) + Square(sum_v)) / count;
   return 0.5 * off2 / count / std::max(1.0, spread2);
 }

@@ -5,7 +5,7 @@
 namespace trailcast::agent {
 namespace {
 
-// Less is the noise of odometry.
+// Smaller motions are the noise of odometry.
 constexpr double kStill_m = 0.02;
 constexpr double kStill_rad = 0.02;
 

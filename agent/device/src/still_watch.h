@@ -8,14 +8,13 @@
 
 namespace trailcast::agent {
 
-// Tells by its odometry whether a robot, after it had moved, has stood for a while: its drive is
-// over.
+// Says by odometry whether a robot has moved and then stood for a while, so that its drive is over.
 class StillWatch {
  public:
-  // 0: it never is.
+  // With a `limit` of 0 it never is.
   explicit StillWatch(std::chrono::milliseconds limit) : limit_(limit) {}
 
-  // At each frame; by the odometry's stamps.
+  // Takes each frame's pose, at the odometry's stamp.
   [[nodiscard]] bool Over(SensorTime stamp, const motion::Pose2& pose);
 
  private:

@@ -9,7 +9,7 @@ namespace trailcast::agent {
 namespace {
 
 constexpr double kLongest_s = 100.0 * 365.25 * 24.0 * 3600.0;
-// What is sensed while driving comes more often; of fewer rows nothing can be told.
+// A moving robot's sensors give values more often, and fewer rows tell nothing.
 constexpr double kLongestPace_s = 5.0;
 constexpr std::size_t kFewRows = 10;
 

@@ -9,12 +9,11 @@
 
 namespace trailcast::agent {
 
-// The time in seconds that a row of a file begins with. kInvalidArgument beyond a hundred years
-// either way: no clock says so, and nanoseconds would run over.
+// Returns the time in seconds with which a row of a file begins. A time more than a hundred years
+// off is kInvalidArgument: no clock shows it, and its nanoseconds would overflow.
 [[nodiscard]] Result<SensorTime> TimeIn(const NumberRow& row, const std::filesystem::path& file);
 
-// kInvalidArgument where rows lie so far apart in time that they are none of a drive, if they are
-// in seconds.
+// kInvalidArgument means that the rows are too far apart for a drive if they are in seconds.
 [[nodiscard]] Result<void> CheckPace(const std::vector<NumberRow>& rows,
                                      const std::filesystem::path& file);
 
