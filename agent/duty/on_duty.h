@@ -19,26 +19,29 @@ namespace trailcast::agent {
 
 struct OnDutyOptions {
   AgentId agent;
-  std::filesystem::path missions_file;  // what it is sent to do is kept here,
-  std::filesystem::path stop_file;      // and here that an operator has stopped it; empty: nowhere
-  RunLogsOptions logs;                  // of each following
-  // How it follows the route of a task; name, place, part and pace of the task are set here.
+  std::filesystem::path missions_file;  // keeps the missions that it was sent
+  std::filesystem::path stop_file;      // keeps an operator's stop; empty for none
+  RunLogsOptions logs;                  // for each route that it follows
+  // Returns the options for following a task's route. Name, place, part and pace of the task are
+  // already set.
   std::function<FollowerOptions(const mission::Task&)> follower;
-  // How it teaches that of a task; name and tags of the task are set here.
+  // Returns the options for teaching a task's route. Name and tags of the task are already set.
   std::function<ScoutOptions(const mission::Task&)> scout;
-  std::string why_no_scout;                  // not empty: it does not teach
-  Refreshing refreshing = Refreshing::kOff;  // of what it has followed
-  // Of the agent's routes, for each following, and each teaching.
+  std::string why_no_scout;                  // if not empty, it does not teach
+  Refreshing refreshing = Refreshing::kOff;  // for routes that it has followed
+  // Open the store of the agent's routes, for following and for teaching.
   std::function<Result<std::unique_ptr<store::RouteStore>>()> open_store;
   std::function<Result<std::unique_ptr<store::RouteStore>>()> open_scouts_store;
-  std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };  // any thread
-  std::function<bool()> stop = [] { return false; };                           // any thread
+  // called by any thread
+  std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };
+  std::function<bool()> stop = [] { return false; };  // called by any
+                                                      // thread
 };
 
-// Takes missions and does them with `device`, one at a time, until `options.stop` says so. After a
-// restart in the middle of one the robot stands until it is told to resume, unless the mission says
-// that it goes on; a teaching has failed then, and what was taught is kept. The errors: another
-// agent has the name; the missions of an earlier run cannot be read.
+// Takes missions and does them with `device`, one at a time, until `options.stop` returns true.
+// After a restart in the middle of a mission, the robot stands until it is told to resume, unless
+// the mission says that it goes on. A teaching has then failed, and its part is kept. Errors:
+// another agent has the name; the missions of an earlier run cannot be read.
 [[nodiscard]] Result<void> ServeOnDuty(RobotDevice& device, const OnDutyOptions& options,
                                        std::unique_ptr<exchange::RouteExchange> exchange);
 

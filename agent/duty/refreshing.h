@@ -12,26 +12,26 @@
 
 namespace trailcast::agent {
 
-// What becomes of a route that a follower has met changed.
+// What a follower does about a route that it found changed.
 enum class Refreshing : std::uint8_t {
   kOff,
-  kReview,  // it is refreshed, and followed once an operator has activated that
-  kAuto,    // and needs no look first
+  kReview,  // refreshes it; robots follow the new revision once an operator has activated it
+  kAuto,    // refreshes it, and needs no operator
 };
 [[nodiscard]] const std::vector<std::string>& RefreshingNames();
-// Of one of them.
+// Returns the value of a name on the command line.
 [[nodiscard]] Refreshing RefreshingOf(const std::string& name);
 
-// Puts the route as it should be after the visit into the agent's own store: another teaching of
-// it, by this agent, complete, without a receipt yet, so that who delivers what the store has sends
-// this, too. Its tags and description say what it is. kUnavailable, saying why, where there is
-// nothing to refresh, or the visit is not believed; otherwise errors are the store's.
+// Stores the route as it should be after the visit: a new teaching of it by this agent, complete
+// and not yet acknowledged, so that it is sent with the rest of the store. Its tags and description
+// say what it is. kUnavailable says why nothing was refreshed, or why the visit is not believed;
+// other errors are the store's.
 [[nodiscard]] Result<route::RouteInfo> StoreRefreshed(const AgentId& self,
                                                       const route::RouteInfo& followed,
                                                       const refresh::Visit& visit, Refreshing how,
                                                       store::RouteStore& store);
 
-// Says in the log what has come of it.
+// Logs the outcome.
 void TellRefreshed(const Result<route::RouteInfo>& refreshed);
 
 }  // namespace trailcast::agent

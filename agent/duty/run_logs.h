@@ -8,11 +8,12 @@
 
 namespace trailcast::agent {
 
-// Where the logs of runs on duty go.
+// Where an agent's run logs go.
 struct RunLogsOptions {
-  std::filesystem::path folder;            // empty: there are none
-  std::uint64_t most_bytes = 500'000'000;  // of all of them; a single one has a quarter of that
-  double picture_every_s = 0.5;            // 0: none
+  std::filesystem::path folder;            // empty for no logs
+  std::uint64_t most_bytes = 500'000'000;  // of all logs together; a single one may have a quarter
+                                           // of that
+  double picture_every_s = 0.5;            // 0 for none
 };
 
 // One part of one lap of a mission.
@@ -22,9 +23,9 @@ struct RunOfMission {
   std::uint32_t lap = 0;
 };
 
-// Makes room for the log of a run, by taking away the oldest ones, and says where it goes: to
-// MISSION-TASK-LAP.mcap, with a further number where an earlier one of the same run is there. Other
-// files are left alone. The error: nothing can be written there.
+// Makes room for a run's log by deleting the oldest ones, and returns its file:
+// MISSION-TASK-LAP.mcap, with a further number if an earlier log of the same run exists. Other
+// files stay. Error: nothing can be written there.
 [[nodiscard]] Result<DiagnosisOptions> LogFor(const RunLogsOptions& options,
                                               const RunOfMission& run);
 

@@ -23,10 +23,11 @@
 
 namespace trailcast::agent {
 
-// A robot on duty: `on_duty.cc` hears and tells, `duty_work.cc` does what it is sent to do.
+// A robot that waits for missions and does them. `on_duty.cc` hears and reports; `duty_work.cc`
+// does the work.
 //
-// While a route is followed or taught, what comes in is heard in the thread of that link, and the
-// one that runs this waits for it, or takes from the hands: neither needs a lock.
+// While a route is followed or taught, that link's thread hears messages, and the thread that runs
+// this waits for it, or takes messages from the hands. Neither needs a lock.
 class Duty {
  public:
   Duty(RobotDevice& device, const OnDutyOptions& options,
@@ -61,7 +62,7 @@ class Duty {
   [[nodiscard]] FollowerOptions::Next PrepareNext(const std::optional<OwnLens>& lens);
   void LookElsewhere();
   [[nodiscard]] FollowerOptions FollowerFor(const mission::Task& task);
-  // None: there is nothing to judge, since it has failed before, or goes another way.
+  // Returns nothing if there is no outcome to judge, because it failed before, or goes another way.
   [[nodiscard]] std::optional<Result<ReplayOutcome>> RunFollower(
       const FollowerOptions& follower, std::unique_ptr<NextPath> begun = nullptr);
   [[nodiscard]] bool LooksElsewhere(const Result<ReplayOutcome>& outcome);
@@ -85,48 +86,50 @@ class Duty {
   MissionDesk desk_;
   std::unique_ptr<exchange::RouteExchange> own_visit_;
   program::Presence presence_;
-  std::uint64_t instance_ = 0;  // of this process, once it is claimed
+  std::uint64_t instance_ = 0;  // of this process, once the name is claimed
   bool claimed_ = false;
   bool following_ = false;
   bool delivering_ = false;
-  bool was_under_way_ = false;  // in this following
-  bool undelivered_ = false;    // what it taught before
+  bool was_under_way_ = false;  // while following the present route
+  bool undelivered_ = false;    // an earlier teaching was not delivered
   Time deliver_at_{};
   Hands* hands_ = nullptr;     // while it teaches
   std::optional<State> told_;  // of the mission under way
   mission::WaitsFor told_waits_for_{};
   std::string told_why_;
-  mission::Task driven_;  // what is followed
-  // Of that: where it ends, and that it ends at once, since it goes another way.
+  mission::Task driven_;  // the task being followed
+  // Where that task ends, and that it ends at once because the robot changes its path.
   std::atomic<double> end_m_ = 0.0;
   std::atomic<bool> turned_off_ = false;
-  // What comes after it, told by the link's thread to the control loop, which makes it ready, and
-  // what it is then to be made ready for.
+  // The task after it, which the link's thread passes to the control loop, and the one for which
+  // that then prepares.
   Mailbox<std::optional<mission::Task>> tasks_after_{4};
   std::optional<mission::Task> task_after_;
   std::string made_ready_;
-  std::unique_ptr<NextPath> next_;  // that the robot drives along
+  std::unique_ptr<NextPath> next_;  // the path on which the robot drives on
   struct Visited {
     route::RouteInfo route;
     refresh::Visit visit;
   };
-  std::vector<Visited> visited_;  // to refresh the routes by once the robot stands
-  std::string missed_;            // why it stands until it is told another way; empty: it need not
+  std::vector<Visited> visited_;  // visits by which routes are refreshed once the robot stands
+  std::string missed_;            // why it stands until it is sent another path; empty if it need
+                                  // not
   Elsewhere elsewhere_;
-  std::optional<ViewQuestion> question_;  // while it asks servers what it sees
-  std::optional<Time> told_until_;        // who has found itself there
+  std::optional<ViewQuestion> question_;  // while it asks servers about its view
+  std::optional<Time> told_until_;        // until when a robot that has found itself waits there
+                                          // for a path
   std::optional<Time> wait_until_;
   std::unique_ptr<Turning> turning_;  // while it turns on the spot
-  // How far it has turned to the left of an order that it has not done: who is to do something else
-  // turns back first.
+  // How far it has turned to the left for an order that is not done. It turns back before anything
+  // else.
   double turned_rad_ = 0.0;
-  std::optional<OwnLens> lens_;  // as the last following knew it
+  std::optional<OwnLens> lens_;  // from the last following
   std::string on_route_;         // where the last following ended
   std::optional<exchange::PlaceOnRoute> place_;
   Time stands_until_{};
   std::string last_ = "free";
   std::optional<Time> ails_since_;
-  std::string ailment_;  // of the robot, while nothing drives it
+  std::string ailment_;  // of the robot while nothing drives it
 };
 
 }  // namespace trailcast::agent

@@ -1,4 +1,4 @@
-// What a robot on duty does: one order of its mission after the other.
+// This part of Duty does the work: one order of the mission after the other.
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -19,17 +19,17 @@ namespace {
 
 using std::chrono::steady_clock;
 
-// A robot whose mission has ended on its way stands there yet, and others wait for it, as they do
-// for one whose agent has ended.
+// A robot whose mission ended on its way still stands there, and others wait for it as they do for
+// one whose agent has ended.
 constexpr std::chrono::seconds kStandsThere{60};
 constexpr std::chrono::seconds kDeliverAgain{60};
-// A robot that has found itself off its way is told another one by then, or has failed.
+// A robot that has found itself off its path is sent another one by then, or has failed.
 constexpr std::chrono::seconds kToldWithin{60};
 constexpr std::chrono::milliseconds kWait{50};
 constexpr std::chrono::seconds kAnsweredWithin{3};
-// Of a route on which it looks for itself it drives nothing.
+// A robot that only looks for itself on a route drives nothing of it.
 constexpr double kAtOnce_m = 0.01;
-// Who does not know its camera turns so far to either side to see how large that shows things.
+// A robot that does not know its camera turns so far to either side to measure its magnification.
 constexpr double kForLens_rad = 0.2;
 constexpr const char* kWaitsForWord = "waits before a narrow stretch until a server lets it in";
 
@@ -37,7 +37,7 @@ constexpr const char* kWaitsForWord = "waits before a narrow stretch until a ser
 
 void Duty::Work() {
   const mission::Task task = desk_.current()->tasks[desk_.current()->task];
-  // Nobody drives on along the one, or turns on by the other, who does anything else now.
+  // Anything else that the robot does ends these two.
   auto begun = std::move(next_);
   auto turning = std::move(turning_);
   if (now_desk_.hold().cancelled) {
@@ -112,10 +112,10 @@ void Duty::WaitForWay() {
             mission::WaitsFor::kWay);
 }
 
-// In the thread that hears of it; what is followed meanwhile is told by end_m_ and turned_off_.
+// The link's thread calls this; end_m_ and turned_off_ tell the control loop.
 void Duty::GoOtherWay() {
   GoAlong();
-  (void)tasks_after_.TryPut(TaskAfter());  // full: it is looked at again where it changes over
+  (void)tasks_after_.TryPut(TaskAfter());  // if it is full, the change-over looks at it again
 }
 
 void Duty::GoAlong() {
@@ -180,7 +180,7 @@ std::optional<Result<ReplayOutcome>> Duty::RunFollower(const FollowerOptions& fo
   return outcome;
 }
 
-// Of a robot that goes to a place: the route that it is to drive along after this one.
+// Returns the route that a robot on its way to a place drives after this one.
 std::optional<mission::Task> Duty::TaskAfter() const {
   const auto& current = desk_.current();
   if (!current || current->going.to.empty()) return std::nullopt;
@@ -192,8 +192,8 @@ std::optional<mission::Task> Duty::TaskAfter() const {
                                                                     : std::nullopt;
 }
 
-// In the control loop's thread. A robot that does not know its camera yet finds itself on no other
-// route while it drives.
+// The control loop's thread calls this. A robot that does not know its camera yet does not look for
+// another route while it drives.
 FollowerOptions::Next Duty::PrepareNext(const std::optional<OwnLens>& lens) {
   while (auto after = tasks_after_.TryGet()) {
     task_after_ = *std::move(after);
@@ -219,7 +219,7 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
   follower.link.begin_m = current.begun ? 0.0 : task.from_m;
   end_m_ = task.to_m;
   follower.end_m = [this] { return end_m_.load(); };
-  // Of a stretch it is not to do another part.
+  // An order for a section does not allow the robot to drive other parts.
   if (task.from_m > 0.0 || task.to_m > 0.0) follower.how.session.else_anywhere = false;
   if (!options_.logs.folder.empty()) {
     auto log = LogFor(options_.logs, {current.mission.id, current.task, current.lap});
@@ -238,7 +238,7 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
   auto outcome = RunFollower(follower, std::move(begun));
   if (!outcome || LooksElsewhere(*outcome)) return;
   const bool arrived = *outcome && (*outcome)->success;
-  // It had arrived when it heard that its order ends further on.
+  // It had already arrived when it heard that its order ends further on.
   const double on_m = place_ ? end_m_ - place_->along_m : 0.0;
   const bool goes_on = arrived && end_m_ != task.to_m && (task.backwards ? -on_m : on_m) > kOnWay_m;
   if (goes_on) return desk_.BeginAt(place_->along_m);
@@ -249,12 +249,13 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
   Judge(*outcome);
 }
 
-// True: it looks elsewhere from now on. Who is only to drive a route may not be led over others.
+// Returns true if it looks on other routes from now on. An order to drive one route does not allow
+// others.
 bool Duty::LooksElsewhere(const Result<ReplayOutcome>& outcome) {
   if (!outcome || outcome->end != RunEnd::kLost) return false;
   if (desk_.current()->going.to.empty() || !elsewhere_.MayBegin()) return false;
-  // It listens to the network while it asks what it sees, and may be sent another way meanwhile:
-  // what it is to do is looked at afterwards.
+  // It hears the network while it asks about its view, and may be sent another path meanwhile, so
+  // the order is read afterwards.
   const std::vector<std::string> seen = RoutesInView();
   const MissionDesk::Current& current = *desk_.current();
   elsewhere_.Begin(current.tasks, current.task,
@@ -264,7 +265,7 @@ bool Duty::LooksElsewhere(const Result<ReplayOutcome>& outcome) {
   return true;
 }
 
-// Of those that it holds, and of those that a server has.
+// These are its own routes, and those of a server.
 std::vector<std::string> Duty::RoutesInView() {
   const auto store = options_.open_store();
   auto seen = device_.Next();
@@ -279,7 +280,7 @@ std::vector<std::string> Duty::AskWhatIsInView(const route::View& view) {
   if (!presence_.server()) return {};
   question_.emplace(options_.agent, static_cast<std::uint64_t>(NowUnixMs()), view);
   const auto until = steady_clock::now() + kAnsweredWithin;
-  // What cannot be handed over is not asked: its own routes are there yet.
+  // A question that cannot be sent is dropped, because its own routes remain.
   if (const auto asked = own_visit_->Publish(question_->request()); !asked) {
     spdlog::debug("{}", asked.error().message);
   }
@@ -295,7 +296,7 @@ void Duty::LookElsewhere() {
   const mission::Task route = elsewhere_.route();
   spdlog::info("looks whether it is on {}", route.route.route);
   FollowerOptions follower = FollowerFor(route);
-  // Looking all round takes most of a minute a route.
+  // Looking all round takes most of a minute for each route.
   double& turn_rad = follower.how.session.look_around_rad;
   turn_rad = lens_ ? 0.0 : std::min(turn_rad, kForLens_rad);
   follower.link.from_start = true;
@@ -317,7 +318,7 @@ void Duty::LookElsewhere() {
   if (elsewhere_.NotThere()) End(State::kFailed, elsewhere_.Lost());
 }
 
-// A server gets it while the robot is free.
+// A server gets the revision while the robot is free.
 void Duty::RefreshVisited() {
   const auto visited = std::exchange(visited_, {});
   if (options_.refreshing == Refreshing::kOff || visited.empty()) return;
@@ -372,7 +373,7 @@ void Duty::Teach(const mission::Task& task) {
   }
 }
 
-// Of teachings that earlier runs have left; those that were cut off end with what is there.
+// Finds teachings that earlier runs left. Those that were cut off end with what is there.
 void Duty::FindUndelivered() {
   if (!options_.why_no_scout.empty()) return;
   const auto store = options_.open_scouts_store();
@@ -383,7 +384,7 @@ void Duty::FindUndelivered() {
   undelivered_ = !notes->empty();
 }
 
-// Missions wait for it, a little.
+// Missions wait for it a little.
 void Duty::Deliver() {
   deliver_at_ = steady_clock::now() + kDeliverAgain;
   auto store = options_.open_scouts_store();

@@ -10,30 +10,30 @@
 
 namespace trailcast::agent {
 
-// On which routes a robot looks for itself that is going to a place and has lost its path: all
-// along its own, on those that look like what it sees, then on the others that its way leads over,
-// first from there on.
+// The routes on which a robot that was going to a place and has lost its path looks for itself: all
+// along its own, on those that resemble its view, and then on the others of its path, the later
+// ones first.
 class Elsewhere {
  public:
-  // From one place on its way to the next one that it reaches.
+  // Between one place on its path and the next that it reaches, it looks so often.
   static constexpr int kMostTimes = 3;
 
   [[nodiscard]] bool MayBegin() const { return times_ < kMostTimes; }
-  // `task`: of `way`, which it followed; `lost`: why no longer; `seen`: names of routes that look
-  // like what it sees.
+  // `task` is the one of `way` that it followed, `lost` the reason for which it was lost, and
+  // `seen` has the routes that resemble its view.
   void Begin(std::span<const mission::Task> way, std::uint32_t task, std::string lost,
              const std::vector<std::string>& seen);
   [[nodiscard]] bool looks() const { return !routes_.empty(); }
-  // Where it looks now, anywhere along it; only while it looks.
+  // Returns the route on which it looks now, at any place. Only while it looks.
   [[nodiscard]] const mission::Task& route() const { return routes_.front(); }
-  // It is not there: true if that was the last one.
+  // Notes that it is not there; returns true if that was the last route.
   [[nodiscard]] bool NotThere();
-  // It stands there; or need not look any more.
+  // Ends the search, because it was found or need not be.
   void End() { routes_.clear(); }
-  // It has got further: it may look anew.
+  // Allows a new search, because it has got further.
   void Reset();
 
-  // For people: "LOST: ...; and it does not find itself on hall or office".
+  // Returns "LOST: ...; and it does not find itself on hall or office", for people.
   [[nodiscard]] std::string Lost() const;
 
  private:

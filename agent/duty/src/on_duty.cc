@@ -18,7 +18,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kWait{50};
-// Of what fails while a robot is free nobody needs to hear that is soon over, as when it starts.
+// A short failure of an idle robot, as when it starts, need not be reported.
 constexpr std::chrono::seconds kAilsFor{2};
 
 exchange::AgentStatus FreeStatus(const AgentId& agent) {
@@ -67,12 +67,12 @@ void Duty::Hear(const exchange::Message& message) {
 void Duty::Say(exchange::RouteExchange& to) {
   if (!claimed_) return;
   const auto now = steady_clock::now();
-  // What cannot be handed over is said, or asked for, again.
+  // What cannot be sent is repeated, or asked for again.
   (void)exchange::PublishAll(to, desk_.Due(now, presence_.server().has_value()));
   TellNews();
   if (following_) return;
   (void)exchange::PublishAll(to, now_desk_.TakeAnswers());
-  // Where no server was heard while it followed.
+  // This covers a robot that heard no server while it followed.
   if (presence_.server()) followed_note_.TellIfDue(to, now);
   if (hands_ != nullptr) return hands_->Tell(now_desk_.hold());
   if (delivering_) return;
@@ -105,14 +105,14 @@ void Duty::ShowFree() {
   presence_.Set(std::move(status));
 }
 
-// Whatever the robot does is told with how operators hold it.
+// Every status tells how operators hold the robot.
 void Duty::AddDuty(exchange::AgentStatus& status) const {
   status.hold = now_desk_.shown_hold();
   status.on_duty = true;
   if (Held()) status.detail = now_desk_.hold().text;
 }
 
-// Nobody asks for frames, so nobody else notices.
+// No frames are requested from an idle robot, so nobody else notices.
 void Duty::NoteAilment(steady_clock::time_point now) {
   std::string ailment = device_.Ailment();
   if (ailment.empty()) {
@@ -127,8 +127,8 @@ void Duty::NoteAilment(steady_clock::time_point now) {
 }
 
 void Duty::TellState(State state, const std::string& why, mission::WaitsFor waits_for) {
-  // Why it stands may change, as from paused to stopped, and is over when it drives on; how far a
-  // route is fetched is no news.
+  // The reason for standing may change, as from paused to stopped, and ends when it drives on. The
+  // progress of fetching is no news.
   const bool same_reason = state == State::kFetching || why == told_why_;
   if (told_ == state && told_waits_for_ == waits_for && same_reason) return;
   told_ = state;
@@ -137,7 +137,7 @@ void Duty::TellState(State state, const std::string& why, mission::WaitsFor wait
   desk_.Tell(state, why, waits_for);
 }
 
-// What follower or scout tells of itself is what becomes of the mission.
+// The follower's or scout's status is the mission's state.
 void Duty::SawStatus(const exchange::AgentStatus& status) {
   const bool at_work = following_ || hands_ != nullptr;
   if (!at_work || !desk_.current()) return;
@@ -162,7 +162,7 @@ void Duty::SawStatus(const exchange::AgentStatus& status) {
 Result<void> Duty::Run() {
   now_desk_.Load();
   if (auto loaded = desk_.Load(); !loaded) return loaded;
-  // What comes meanwhile is heard by way of the exchange.
+  // The exchange hears what comes meanwhile.
   if (auto claimed = presence_.Claim([](const exchange::Message&) {}, options_.stop); !claimed) {
     return claimed;
   }
@@ -193,7 +193,7 @@ Result<void> Duty::Run() {
       if (undelivered_ && presence_.server() && steady_clock::now() >= deliver_at_) Deliver();
     }
   }
-  (void)exchange_.Take(kWait);  // with which the last news is told
+  (void)exchange_.Take(kWait);  // this sends the last news
   exchange::AgentStatus last;
   last.mode = exchange::AgentMode::kStopped;
   last.detail = "stopped by a signal";

@@ -15,7 +15,8 @@ bool AreOfOneRoute(const Task& a, const Task& b) {
 
 double LengthOf(const Task& task) { return std::abs(task.to_m - task.from_m); }
 
-// Of an order what is done by who is there: below 0 before its beginning.
+// Returns how much of an order a robot at that place has done, which is negative before its
+// beginning.
 double DoneAt(const Task& task, double along_m) {
   return task.backwards ? task.from_m - along_m : along_m - task.from_m;
 }
@@ -26,7 +27,7 @@ OtherWay FindOnWay(std::span<const Task> way, const Task& driven, std::optional<
   if (!along_m || way.empty()) return {};
   for (std::uint32_t i = 0; i < way.size(); ++i) {
     const Task& task = way[i];
-    if (task.kind != Task::Kind::kFollow) break;  // it may not go on beyond that
+    if (task.kind != Task::Kind::kFollow) break;  // the robot may not go on beyond that
     const double done_m = DoneAt(task, *along_m);
     const bool is_on =
         AreOfOneRoute(task, driven) && done_m >= -kOnWay_m && done_m <= LengthOf(task) + kPassed_m;

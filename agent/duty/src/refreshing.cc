@@ -19,7 +19,7 @@
 namespace trailcast::agent {
 namespace {
 
-// Of the features judged: so few that were missed are no news worth a revision.
+// If a smaller share of the judged features was missed, no new revision is worth it.
 constexpr double kFewMissed = 0.05;
 
 Result<std::vector<route::Segment>> ReadAll(const route::RouteInfo& route,

@@ -8,10 +8,10 @@
 
 namespace trailcast::agent {
 
-// Names of the routes in a robot's own store that are not retired, and that somewhere look like a
-// view (vision::DescribeForQuery), the likest first, three at most. By key views alone: that a
-// robot stands there is for their features to tell. Of the newest routes no more segments are
-// looked at than take some tenths of a second. What cannot be read shows nothing.
+// Returns the names of up to three routes in a robot's own store that are not retired and somewhere
+// resemble a view (vision::DescribeForQuery), the most similar first. It compares key views only;
+// whether the robot stands there, the features must tell. It looks at as many segments of the
+// newest routes as some tenths of a second allow. What cannot be read is skipped.
 [[nodiscard]] std::vector<std::string> RoutesSeen(store::RouteStore& store,
                                                   const std::vector<route::ViewFeature>& view);
 

@@ -23,7 +23,7 @@ struct OldLog {
   std::uint64_t bytes = 0;
 };
 
-// The oldest first.
+// Returns the oldest first.
 std::vector<OldLog> OldLogs(const fs::path& folder) {
   static const std::regex name(".+-[0-9]+-[0-9]+(-[0-9]+)?\\.mcap");
   std::vector<OldLog> logs;

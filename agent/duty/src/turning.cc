@@ -9,10 +9,10 @@
 namespace trailcast::agent {
 namespace {
 
-// So that a robot whose frames come late does not turn much too far.
+// The bound keeps a robot with late frames from turning much too far.
 constexpr double kMost_radps = 0.5;
 constexpr double kLeast_radps = 0.1;
-constexpr double kPerSecond = 1.0;  // of what is left
+constexpr double kPerSecond = 1.0;  // of the rest
 constexpr double kThere_rad = 0.03;
 constexpr double kMoves_rad = 1e-3;  // in a frame
 constexpr std::chrono::seconds kPatience{30};

@@ -11,16 +11,16 @@
 
 namespace trailcast::agent {
 
-// Turns a robot on the spot, by what its wheels say. It stands when this goes.
+// Turns a robot on the spot, by its odometry. The destructor stops it.
 class Turning {
  public:
-  // `turned_rad`: so far to the left it is turned already.
+  // `turned_rad` is how far it has already turned to the left.
   Turning(RobotDevice& device, double turned_rad)
       : device_(device), standstill_(device), turned_rad_(turned_rad) {}
 
-  // Waits for a frame, and turns on to where it is turned by so much to the left. True: it is
-  // there, and stands. kUnavailable: it has no odometry, it does not turn, or what it sees has
-  // ended.
+  // Waits for a frame, and turns on towards so far to the left. Returns true once the robot is
+  // there and stands. kUnavailable means that it has no odometry, does not turn, or gives no more
+  // frames.
   [[nodiscard]] Result<bool> TurnOnTo(double to_rad);
   [[nodiscard]] double turned_rad() const { return turned_rad_; }
 

@@ -9,7 +9,7 @@ ViewQuestion::ViewQuestion(const AgentId& self, std::uint64_t number, route::Vie
   request_.client = self;
   request_.request = number;
   request_.query.view = std::move(view);
-  // Of one route several places may look like it.
+  // One route may have several similar places.
   request_.query.page_size = 3 * kMostRoutes;
 }
 

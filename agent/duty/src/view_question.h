@@ -10,19 +10,20 @@
 
 namespace trailcast::agent {
 
-// What a robot asks servers that does not know where it is: which routes look like what it sees.
+// The question to servers of a robot that does not know where it is: which routes resemble its
+// view?
 class ViewQuestion {
  public:
   static constexpr std::uint32_t kMostRoutes = 3;
 
-  // `number`: of the request, another one each time. `view`: vision::DescribeForQuery.
+  // `number` is the request's, a new one each time; `view` is from vision::DescribeForQuery.
   ViewQuestion(const AgentId& self, std::uint64_t number, route::View view);
 
   [[nodiscard]] const exchange::CatalogRequest& request() const { return request_; }
   void Hear(const exchange::Message& message);
-  // By the first server that could.
+  // Says whether a server has answered; the first answer counts.
   [[nodiscard]] bool answered() const { return routes_.has_value(); }
-  // Names of those that robots follow, the likest first.
+  // Returns the names of routes that robots follow, the most similar first.
   [[nodiscard]] std::vector<std::string> routes() const {
     return routes_.value_or(std::vector<std::string>());
   }
