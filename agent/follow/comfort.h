@@ -7,17 +7,18 @@
 
 namespace trailcast::agent {
 
-// How much of the taught speed is comfortable there: what shakes up and down grows with the speed.
+// Returns the share of the taught speed that is comfortable there: vertical shaking grows with the
+// speed.
 [[nodiscard]] double ComfortableShare(const route::Terrain& terrain);
 
-// What becomes of a follower's steps on rough ground: slower than it was taught, from before it
-// begins. The path stays the same. Where it is not known how far along the robot is, on routes that
-// were taught without odometry, only as soon as it is on the rough segment or the one before.
+// Slows a follower's steps on rough ground, and before it, below the taught speed. The path stays
+// the same. On routes that were taught without odometry, the place along the route is not known,
+// and it slows only once the robot is on the rough segment or the one before.
 class Comfort {
  public:
   explicit Comfort(bool wanted) : wanted_(wanted) {}
 
-  // In the route's order.
+  // Segments are added in the route's order.
   void Add(const route::Segment& segment);
   [[nodiscard]] ReplayStep Apply(ReplayStep step) const;
 
@@ -25,7 +26,7 @@ class Comfort {
   struct Stretch {
     double begin_m = 0.0;
     double length_m = 0.0;
-    double speed_mps = 0.0;  // at most; of a segment without odometry 0
+    double speed_mps = 0.0;  // the most; 0 for a segment without odometry
     double share = 1.0;      // of the taught speed
   };
   [[nodiscard]] double MostMps(double along_m, double speed_mps, std::size_t segment) const;

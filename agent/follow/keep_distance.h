@@ -10,30 +10,30 @@
 namespace trailcast::agent {
 
 struct KeepDistanceOptions {
-  double distance_m = 1.5;  // along the path, to whoever is ahead; 0: none is kept
-  // A robot slows down so that it stands where the distance would be passed: so gently, and so long
-  // after it was told to.
+  double distance_m = 1.5;  // along the path, to the robot ahead; 0 keeps none
+  // A robot slows down so that it would stop at the distance, with this deceleration and this
+  // delay.
   double deceleration_mps2 = 0.4;
   double reaction_s = 0.2;
-  double standing_mps = 0.03;  // slower than this it stands
-  double go_on_m = 0.3;        // standing, it goes on when there is so much more room
+  double standing_mps = 0.03;  // a slower robot stands
+  double go_on_m = 0.3;        // a standing robot goes on when there is so much more room
 };
 
-// How fast a robot may drive with others on its route.
+// The speed that a robot may drive with others on its route.
 struct Spacing {
-  double speed_factor = 1.0;           // of the speed that it would drive at, 0..1
-  std::optional<Neighbour> waits_for;  // it stands behind this one
+  double speed_factor = 1.0;           // of its speed without others, 0..1
+  std::optional<Neighbour> waits_for;  // the robot behind which it stands
   double ahead_m = 0.0;                // how far that one is ahead, 0 beside it
 };
 
-// For people: "waits for robot2, 1.4 m ahead".
+// Returns "waits for robot2, 1.4 m ahead", for people.
 [[nodiscard]] std::string WaitText(const Spacing& spacing,
                                    std::chrono::steady_clock::time_point now);
 
-// Keeps a follower's distance along the path to those ahead of it. It counts from the place that
-// they last told, so that a bad radio makes it longer and never shorter. Of robots that cannot be
-// told apart along the path, as where all stand at its start, the first by name goes first.
-// A closed route's end is not ahead of its beginning. No thread.
+// Keeps a follower's distance along the path to robots ahead of it. It counts from the places that
+// they last reported, so a bad radio makes the distance longer and never shorter. Among robots at
+// the same place along the path, as where all stand at its start, the first by name goes first. A
+// closed route's end is not ahead of its beginning. It has no thread.
 class KeepDistance {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -41,8 +41,8 @@ class KeepDistance {
   explicit KeepDistance(AgentId self, const KeepDistanceOptions& options = {})
       : self_(std::move(self)), options_(options) {}
 
-  // `along_m`: the own place on the route that all `neighbours` are on; `speed_mps`: what the robot
-  // would drive at alone, above 0.
+  // `along_m` is the robot's place on the route, which all `neighbours` share; `speed_mps` is its
+  // speed without others, above 0.
   [[nodiscard]] Spacing Keep(double along_m, double speed_mps,
                              std::span<const Neighbour> neighbours, Time now);
 

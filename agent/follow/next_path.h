@@ -14,29 +14,29 @@
 
 namespace trailcast::agent {
 
-// The route that a robot drives along next: learnt while it follows another one, and looked for in
-// the same pictures where it is to change over, so that it need not stand there. The control loop's
-// thread.
+// The route that a robot drives next. It is learnt while the robot follows another route, and is
+// sought in the same pictures where the robot changes over, so that it need not stop there. It
+// belongs to the control loop's thread.
 class NextPath {
  public:
-  // `wish`: which it is; its number is not looked at.
+  // `wish` names the route; its number does not matter.
   NextPath(RobotDevice& device, RouteWish wish, KnownPath path);
   [[nodiscard]] const RouteWish& wish() const { return wish_; }
-  // As a link feeds it. False: it will never be ready, since some of it is not to be had, or the
-  // robot cannot drive it.
+  // Takes an item from the link. False means that it will never be ready, because part of it cannot
+  // be had, or the robot cannot drive it.
   [[nodiscard]] bool Learn(Feed item);
-  // It may be looked for: all of it is known, and it was not looked for in vain.
+  // Says whether it may be sought: all of it is known, and it was not sought in vain.
   [[nodiscard]] bool ready() const;
 
-  // How a robot that was told to drive like this drives while it looks, `left_m` before it gives
-  // up: however long a look takes, it comes about so far meanwhile and no further.
+  // Returns the command for a robot that looks for the route, slowed so that it drives about
+  // `left_m` before it gives up, however long a look takes.
   [[nodiscard]] motion::VelocityCommand WhileItLooks(motion::VelocityCommand command,
                                                      double left_m) const;
-  // At the joint, once it is ready. True: the robot is sure that it is on this route, about where
-  // it begins, and drives along it from now on.
+  // Looks for the route at the junction, once it is ready. Returns true if the robot is sure that
+  // it is on the route, about where it begins; it then drives along it.
   [[nodiscard]] bool TakesOver(const Observation& observation);
 
-  // Of one that has taken over; once.
+  // The state of a path that has taken over; it can be taken once.
   struct Begun {
     KnownPath path;
     ReplayStep step;  // the last
@@ -48,8 +48,8 @@ class NextPath {
   RouteWish wish_;
   KnownPath path_;
   int looks_ = 0;
-  std::chrono::duration<double> look_;  // how long the last one took
-  // Of a robot that drives along it, which stands unless somebody else drives it on (Take).
+  std::chrono::duration<double> look_;  // duration of the last look
+  // Stops a robot that drives along it, unless somebody else drives it on (Take).
   std::optional<Standstill> standstill_;
   ReplayStep driving_by_;
 };

@@ -9,7 +9,7 @@
 
 namespace trailcast::agent {
 
-// What ground a robot can drive.
+// The ground that a robot can drive.
 struct TerrainLimits {
   std::optional<double> slope_rad{};  // up or down
   std::optional<route::Roughness> roughness{};
@@ -17,20 +17,21 @@ struct TerrainLimits {
   [[nodiscard]] bool any() const { return slope_rad || roughness; }
 };
 
-// Whether a robot can drive a route, by what was felt of its ground when it was taught.
+// Checks whether a robot can drive a route, by what was felt of its ground when it was taught.
 class TerrainCheck {
  public:
   explicit TerrainCheck(const TerrainLimits& limits) : limits_(limits) {}
 
-  // Whether all of a route is to be looked at before it is driven.
+  // Says whether all of a route must be checked before it is driven.
   [[nodiscard]] bool any() const { return limits_.any(); }
-  // In the route's order.
+  // Segments are added in the route's order.
   void Add(const route::Segment& segment);
 
-  // Why not: what lies ahead of `from_m`, where, and what the limit is; one line for people.
-  // Without odometry all of it does. Nothing: it can, as far as is known.
+  // Returns why the robot cannot drive what lies ahead of `from_m`, with the place and the limit,
+  // as one line for people; nothing if it can, as far as is known. Without odometry, all of the
+  // route lies ahead.
   [[nodiscard]] std::optional<std::string> Refusal(double from_m) const;
-  // What has a limit, and of which segments it is not known: one line for people. Nothing: none.
+  // Returns what has a limit but is not known, and of which segments, as one line for people.
   [[nodiscard]] std::optional<std::string> NotKnown() const;
 
  private:

@@ -6,9 +6,9 @@
 namespace trailcast::agent {
 namespace {
 
-// So that it need not brake hard before a rough stretch.
+// A gentle deceleration, so that it need not brake hard before a rough section.
 constexpr double kDeceleration_mps2 = 0.25;
-// Further ahead nothing has to be done yet, at any speed of a robot that is comfortable.
+// Rough ground further ahead needs no braking yet, at any comfortable speed.
 constexpr double kAhead_m = 4.0;
 
 }  // namespace
@@ -35,7 +35,7 @@ void Comfort::Add(const route::Segment& segment) {
   stretches_.push_back({begin_m, segment.length_m, speed_mps, share});
 }
 
-// What is rough ahead is come to at its speed, braking gently.
+// The robot brakes gently to reach rough ground at its speed.
 double Comfort::MostMps(double along_m, double speed_mps, std::size_t segment) const {
   double most_mps = speed_mps;
   const bool metric = stretches_[segment].speed_mps > 0.0;

@@ -20,12 +20,12 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// Further beyond the end of its stretch than this nobody drives who looks at each frame.
+// A robot further past the end than this was carried there.
 constexpr double kDrivenPast_m = 1.0;
-// Where it is to change over to another route: how far it goes on along this one until it has found
-// that.
+// How far it goes on along this route until it has found the one to which it changes over.
 constexpr double kChangesWithin_m = 0.1;
-// What is learnt of a segment of another route takes a fraction of a millisecond, while it drives.
+// Learning a segment of another route takes a fraction of a millisecond, and the robot drives
+// meanwhile.
 constexpr int kLearntAtOnce = 4;
 constexpr milliseconds kWakeUp{200};  // how soon a waiting follower notices a signal
 // How often a robot that stands behind another reads its sensors.
@@ -38,7 +38,7 @@ double CpuMs() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-// Tells people how a run ended; `last` is the state of its last step.
+// Returns for people how a run ended; `last` is the state of its last step.
 const char* StateText(RunEnd end, ReplayState last) {
   switch (end) {
     case RunEnd::kArrived:
@@ -63,14 +63,14 @@ const char* StateText(RunEnd end, ReplayState last) {
   return "UNKNOWN";
 }
 
-// A run that ends while the robot is in `state` ends like this.
+// Returns how a run ends while the robot is in `state`.
 RunEnd EndIn(ReplayState state) {
   if (state == ReplayState::kArrived) return RunEnd::kArrived;
   if (state == ReplayState::kLost) return RunEnd::kLost;
   return state == ReplayState::kWaiting ? RunEnd::kWaiting : RunEnd::kRecording;
 }
 
-// The control loop and what it knows.
+// The control loop with its state.
 class Loop {
  public:
   Loop(RobotDevice& device, const FollowerOptions& options, FollowerLink& link, Diagnosis diagnosis)
@@ -82,10 +82,10 @@ class Loop {
         yielding_(options.link.agent, options.keep_distance),
         path_(options.how) {}
 
-  // Before Run: the robot drives along this already.
+  // Only before Run: the robot already drives along this.
   void DriveOn(NextPath::Begun begun);
 
-  // Ends when there is no more to do; the error is final.
+  // Runs until there is no more to do. An error is final.
   [[nodiscard]] Result<void> Run(Standstill& standstill);
   [[nodiscard]] ReplayOutcome Outcome(const Result<void>& ran,
                                       const std::optional<route::RouteInfo>& route) &&;
@@ -98,14 +98,14 @@ class Loop {
   [[nodiscard]] Result<ReplayStep> Decide(const Observation& observation);
   void HearNeighbours();
   [[nodiscard]] bool NothingToFollow() const;
-  // False: an operator has ended the run.
+  // Returns false if an operator has ended the run.
   [[nodiscard]] bool TakeHold();
   [[nodiscard]] bool Refuses();
   [[nodiscard]] double PastEnd_m(const ReplayStep& step, double end_m) const;
-  // Of what it was to drive of this route.
+  // Says whether it has passed the end of its part of this route.
   [[nodiscard]] bool PassedEnd(const ReplayStep& step, double end_m) const;
   void PrepareNext();
-  // Past that end it looks for the next route, before it has come so much further.
+  // Returns how far it may still drive past that end while it looks for the next route.
   [[nodiscard]] std::optional<double> LeftToLookForNext_m(const ReplayStep& step,
                                                           double end_m) const;
   [[nodiscard]] bool ChangesOver(const Observation& observation);
@@ -123,20 +123,20 @@ class Loop {
   ProgressWatch watch_;
   Yielding yielding_;
   Hold hold_;
-  Stand stand_;  // while an operator holds it
+  Stand stand_;  // while an operator holds the robot
   KnownPath path_;
   std::unique_ptr<NextPath> next_;
-  std::uint32_t wishes_ = 0;            // of next ones
-  bool wished_ = false;                 // the link has heard the last
-  bool changes_over_ = false;           // drives along the next one
+  std::uint32_t wishes_ = 0;            // for next routes
+  bool wished_ = false;                 // the link has heard the last one
+  bool changes_over_ = false;           // it drives along the next route
   std::optional<double> went_on_at_m_;  // where it then found itself
   bool fed_ = false;                    // since the last frame
   bool looked_ = false;                 // at this frame
-  // By something of the robot that has failed, or something in its way: now, since the last step.
+  // Whether a failure or an obstacle holds the robot now, and did at the last step.
   bool held_ = false;
   bool was_held_ = false;
   std::optional<ReplayStep> last_;
-  motion::VelocityCommand told_;  // the base, last
+  motion::VelocityCommand told_;  // the base's last command
   RunEnd end_ = RunEnd::kWaiting;
   std::string reason_;
   ReplayLog log_;
@@ -170,7 +170,7 @@ Result<void> Loop::TakeFeed() {
 }
 
 bool Loop::NothingToFollow() const {
-  // It begins with all that its own store holds: a run over one store is the same each time.
+  // It begins with everything in its own store, so that runs over one store are the same each time.
   if (path_.segments() == 0 || path_.segments() < link_.held_before()) return true;
   if (path_.AwaitsAll()) return true;
   const bool complete = path_.complete();
@@ -180,7 +180,7 @@ bool Loop::NothingToFollow() const {
   return waiting && !fed_ && !complete;
 }
 
-// Where the ground is more than the robot can drive; it ends the run.
+// Ends the run if the robot cannot drive the ground.
 bool Loop::Refuses() {
   const auto refusal = path_.Refusal();
   if (refusal) End(RunEnd::kRefused, *refusal);
@@ -192,14 +192,14 @@ bool Loop::TakeHold() {
   return !hold_.cancelled || End(RunEnd::kCancelled, "cancelled by an operator");
 }
 
-// False: the run is over.
+// Returns false if the run is over.
 Result<bool> Loop::WaitForFeed() {
   auto began = steady_clock::now();
   auto known = path_.taken();
   while (NothingToFollow()) {
     if (std::exchange(known, path_.taken()) != path_.taken()) began = steady_clock::now();
     if (options_.link.stop()) return End(RunEnd::kStopped, "stopped by a signal");
-    // Before the first segment the link has bounds of its own, and says more precisely what fails.
+    // Before the first segment, the link has bounds of its own and says more precisely what fails.
     const auto bound =
         options_.link.wait + (path_.session() ? milliseconds(0) : milliseconds(5000));
     if (steady_clock::now() - began > bound) {
@@ -251,7 +251,7 @@ Result<void> Loop::Run(Standstill& standstill) {
   }
 }
 
-// Who is ahead is so along the way that is driven.
+// Robots are ahead in the direction of driving.
 void Loop::HearNeighbours() {
   while (auto neighbours = link_.TryTakeNeighbours()) {
     for (Neighbour& one : *neighbours) one.along_m = path_.OfRoute(one.along_m);
@@ -279,7 +279,7 @@ Result<ReplayStep> Loop::Decide(const Observation& observation) {
   return yielding_.Apply(path_.Comfortable(*std::move(step)), observation.stamp, now);
 }
 
-// False: the run is over.
+// Returns false if the run is over.
 Result<bool> Loop::Step(const Observation& observation) {
   fed_ = false;
   const double before_ms = CpuMs();
@@ -320,7 +320,8 @@ Result<bool> Loop::Step(const Observation& observation) {
 
 void Loop::PrepareNext() {
   if (!options_.next) return;
-  // Who is sure of its path knows its camera, if it ever does, and finds the next one by that.
+  // A robot that is sure of its path knows its camera if it ever does, and finds the next route
+  // with that knowledge.
   const auto lens = path_.session()->lens();
   if (lens || last_->trust == Trust::kSure) {
     if (auto next = options_.next(lens)) {
@@ -376,7 +377,7 @@ double Loop::PastEnd_m(const ReplayStep& step, double end_m) const {
   return options_.how.backwards ? -past_m : past_m;
 }
 
-// Also who is at the route's own end, and who drives on by odometry alone.
+// This includes a robot at the route's own end, and one that drives on by odometry alone.
 bool Loop::PassedEnd(const ReplayStep& step, double end_m) const {
   const bool knows_where = step.state == ReplayState::kFollowing ||
                            step.state == ReplayState::kArrived ||
@@ -384,7 +385,7 @@ bool Loop::PassedEnd(const ReplayStep& step, double end_m) const {
   return end_m > 0.0 && knows_where && step.along_m && PastEnd_m(step, end_m) >= 0.0;
 }
 
-// After the command: who looks delays no more than the next frame, by the time of a copy.
+// It comes after the command, so that a viewer delays only the next frame, by the time of a copy.
 void Loop::ShowGlance(const ReplayStep& step) {
   if (options_.glances == nullptr || !options_.glances->wanted()) return;
   GlanceFrame frame;
@@ -424,7 +425,7 @@ void Loop::Tell(const ReplayStep& step) {
   diagnosis_.Note("passing", now);
 }
 
-// The robot stands, and may drive on when it is over; meanwhile there are no steps to report.
+// The robot stands and may drive on afterwards; meanwhile there are no steps to report.
 void Loop::TellTrouble(const RobotDevice::Halt& halt) {
   diagnosis_.Note("robot", halt.what.empty() ? "drives again" : halt.what);
   held_ = !halt.what.empty();

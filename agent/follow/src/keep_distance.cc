@@ -12,11 +12,10 @@
 namespace trailcast::agent {
 namespace {
 
-// Two places in one cell of this length are the same: that is how well robots know of each other
-// what they are told over a radio. Cells, and not distances, so that among three of them there is
-// always a first.
+// Places in one cell of this length count as the same: robots know each other's places no better
+// over a radio. With cells, unlike distances, there is always a first among three robots.
 constexpr double kCell_m = 0.25;
-// A robot that told its speed is that much further by now, but for no longer than this.
+// A robot is assumed to have gone on with its reported speed, but for no longer than this.
 constexpr double kLongestGuess_s = 1.0;
 constexpr double kSilent_s = 2.0;  // worth mentioning
 
@@ -40,7 +39,7 @@ bool KeepDistance::IsAhead(const Neighbour& other, double along_m, Time now) con
   return theirs != own ? theirs > own : other.agent < self_;
 }
 
-// From this speed it comes to stand within the room: v t + v^2 / 2 a = room, solved for v.
+// From this speed it stops within the room: v t + v^2 / 2 a = room, solved for v.
 double KeepDistance::SpeedWithin(double room_m) const {
   const double a = options_.deceleration_mps2;
   const double at = a * options_.reaction_s;

@@ -7,12 +7,12 @@
 namespace trailcast::agent {
 namespace {
 
-// It may have come so far on until it is found.
+// The robot may have gone on so far when it finds the route.
 constexpr double kFound_m = 1.0;
-// Places about the joint that are looked at, one in a picture. To look further takes a second, in
-// which nobody would see where the robot drives.
+// The number of places about the junction that are tried, one in each picture. Looking further
+// takes a second, in which nobody would watch where the robot drives.
 constexpr int kLooks = 5;
-// The first takes so long at most, on a machine that is not much too slow for it.
+// The longest duration of the first look, on a machine that is not much too slow for it.
 constexpr std::chrono::duration<double> kFirstLook(0.5);
 constexpr std::chrono::duration<double> kFrame(0.1);  // until the next one, at least
 

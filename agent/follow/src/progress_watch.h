@@ -14,7 +14,8 @@ class ProgressWatch {
  public:
   explicit ProgressWatch(std::chrono::seconds limit) : limit_(limit) {}
 
-  // `held`: the robot cannot go on, which is told and waited for elsewhere.
+  // `held` means that the robot cannot go on for a reason that is reported and waited for
+  // elsewhere.
   [[nodiscard]] bool Stuck(SensorTime stamp, const ReplayStep& step, bool held) {
     const double place = step.segment.value() + step.fraction;
     const bool further = place > furthest_ + 1e-3;

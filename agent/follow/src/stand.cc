@@ -16,7 +16,7 @@ const ReplayStep* Stand::WithoutLooking(SensorTime stamp) const {
 void Stand::Begin(const ReplayStep& step, SensorTime stamp) {
   if (!since_) since_ = stamp;
   wish_ = step;
-  // Of the frame that was looked at, and not of those that are not.
+  // These belong to the frame that was looked at, and not to those that are skipped.
   wish_.sight.searches.clear();
   wish_.sight.lost = {};
   wish_.decision.carried_left_m.reset();

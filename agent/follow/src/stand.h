@@ -7,16 +7,17 @@
 
 namespace trailcast::agent {
 
-// The steps of a robot that has to stand although it is not at its route's end. Once it has come to
-// a stand it need not look at its pictures: there is nothing to learn from them, and whoever passes
-// before it would only confuse it. Belongs to the control loop; no clock of its own.
+// The steps of a robot that has to stand before it reaches its route's end. Once it stands, it does
+// not look at its pictures: they teach it nothing, and a passer-by would only confuse it. It
+// belongs to the control loop and has no clock of its own.
 class Stand {
  public:
-  // What it wished for when it came to a stand; nothing: look at the frame of this stamp first.
+  // Returns the step with which it came to a stand, or nothing if the frame of this stamp must be
+  // looked at first.
   [[nodiscard]] const ReplayStep* WithoutLooking(SensorTime stamp) const;
-  // It stands on `step`, which a look at this frame gave.
+  // Notes that it stands with `step`, the result for this frame.
   void Begin(const ReplayStep& step, SensorTime stamp);
-  // It may drive.
+  // Lets it drive.
   void End() { since_.reset(); }
 
  private:
@@ -24,7 +25,7 @@ class Stand {
   ReplayStep wish_;
 };
 
-// The same step of a robot that stands, and why.
+// Returns the same step for a standing robot, with the reason.
 [[nodiscard]] ReplayStep StandingStep(ReplayStep step, ReplayState state, std::string reason);
 
 }  // namespace trailcast::agent

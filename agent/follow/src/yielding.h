@@ -10,9 +10,9 @@
 
 namespace trailcast::agent {
 
-// What becomes of a follower's steps with others ahead of it on its route: slower, or kYielding
-// with the command to stand and the reason why. One that nobody is ahead of does exactly what it
-// would do alone. Belongs to the control loop; no clock of its own.
+// Changes a follower's steps for others ahead of it on its route: it drives more slowly, or is
+// kYielding with a command to stop and the reason. Without anybody ahead, the steps stay the same.
+// It belongs to the control loop and has no clock of its own.
 class Yielding {
  public:
   using Time = KeepDistance::Time;
@@ -20,11 +20,11 @@ class Yielding {
   Yielding(AgentId self, const KeepDistanceOptions& options)
       : enabled_(options.distance_m > 0.0), keep_distance_(std::move(self), options) {}
 
-  // Who is on the route from now on.
+  // Takes the robots that are on the route from now on.
   void Hear(std::vector<Neighbour> neighbours) { neighbours_ = std::move(neighbours); }
 
-  // The step of a robot that has come to a stand behind another, as long as it has to; nothing:
-  // look at the frame of this stamp, and Apply.
+  // Returns the step of a robot that stands behind another, as long as it has to, or nothing if the
+  // frame of this stamp must be looked at and passed to Apply.
   [[nodiscard]] std::optional<ReplayStep> StandOn(SensorTime stamp, Time now);
   [[nodiscard]] ReplayStep Apply(ReplayStep step, SensorTime stamp, Time now);
 
