@@ -10,15 +10,15 @@
 
 namespace trailcast::server {
 
-// What agents that hear the server alone need to know of all others: how many there are, and that a
-// name is taken. What two processes say of one name decides the first of them: whoever was there
-// before keeps it, and of two that start together the one with the smaller instance. Whether the
-// first is there still is asked of it, by telling all who came. No clock, no I/O.
+// Tells agents that hear only the server what they need to know of the others: how many there are,
+// and which names are taken. If two processes claim one name, the one that was there first keeps
+// it; if they start together, the one with the smaller instance does. Every claim is published, so
+// that the first process can say whether it is still there. It has no clock and no I/O.
 class FleetNews {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  // Who claims a name is told at once, numbers of agents when they have changed by a tenth, or
-  // after a while.
+  // Claims of names are published at once. The number of agents is published when it has changed by
+  // a tenth, or after a while.
   static constexpr std::chrono::milliseconds kClaimsEvery{20};
   static constexpr std::chrono::seconds kNumberEvery{1};
   static constexpr std::chrono::seconds kLittleEvery{10};
@@ -26,11 +26,11 @@ class FleetNews {
   explicit FleetNews(AgentId server) : server_(std::move(server)) {}
 
   void Handle(const exchange::Message& message);
-  // To be told now.
+  // Returns what is to be published now.
   [[nodiscard]] std::optional<exchange::Fleet> Due(Time now);
-  // For the log: names that two running processes have, each once.
+  // Returns, for the log, names that two running processes share, each once.
   [[nodiscard]] std::vector<std::string> TakeNotes();
-  // For people: the same, as it is now; empty: there are none.
+  // Returns the present ones for people, or an empty text.
   [[nodiscard]] std::string NameTrouble() const;
 
  private:
@@ -48,8 +48,8 @@ class FleetNews {
   static constexpr std::size_t kMostAgents = 65'536;  // strangers can make up names
 
   AgentId server_;
-  std::map<AgentId, Process> agents_;  // who came to each name first
-  std::map<AgentId, Claimer> claims_;  // and who came later, as long as both are there
+  std::map<AgentId, Process> agents_;  // the first process of each name
+  std::map<AgentId, Claimer> claims_;  // and a later one, as long as both are there
   std::vector<std::string> notes_;
   bool claims_changed_ = false;
   std::size_t told_agents_ = 0;

@@ -15,11 +15,11 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// How soon a robot is told again that has not answered, at first and later.
+// A robot that has not answered is told again after the first time, later after the second.
 constexpr milliseconds kSoon{1000};
 constexpr milliseconds kLate{30'000};
 constexpr milliseconds kExpireEvery{1000};
-// How soon a robot is told again of another way, which it does not answer.
+// A new path is repeated this often, because robots do not answer it.
 constexpr milliseconds kAmendedEvery{2000};
 
 std::string Describe(const mission::Mission& mission) {
@@ -37,7 +37,7 @@ std::uint32_t ValidFor_s(const mission::Mission& mission) {
   return asked_s == 0 ? mission::kLongestValid_s : std::min(asked_s, mission::kLongestValid_s);
 }
 
-// Another way to the same place is the same mission.
+// Another path to the same place is the same mission.
 bool AreSame(const std::string& orders, const std::string& others) {
   if (orders == others) return true;
   const auto going = mission::GoingIn(orders);
@@ -45,7 +45,7 @@ bool AreSame(const std::string& orders, const std::string& others) {
   return going && other && going->to == other->to && (going->way > 1 || other->way > 1);
 }
 
-// That a robot has said, and that it says more after.
+// Returns the states after which a robot will report others.
 std::uint32_t UnendedStates() {
   std::uint32_t states = 0;
   for (std::uint8_t i = 0; i < mission::kStates; ++i) {
@@ -185,7 +185,7 @@ void MissionBoard::Keep(const mission::Mission& mission, mission::Record stored)
   if (pending.empty()) unanswered_.erase(mission.agent);
 }
 
-// The robot's own word, which is durable when it is said again.
+// Handles a robot's report, which is on the disk before the server repeats it.
 void MissionBoard::On(const mission::Report& report, std::int64_t now_unix_ms) {
   const auto are_news = store_->Change({&report, 1}, now_unix_ms);
   NoteStored(are_news);
@@ -250,7 +250,7 @@ Result<void> MissionBoard::Amend(const AgentId& agent, const std::string& orders
   NoteStored(stored);
   if (!stored) return tl::unexpected(stored.error());
   mission.orders = orders;
-  current->record.last.task = 0;  // of these
+  current->record.last.task = 0;  // of the new path
   current->tell_at = {};
   notes_.push_back({Describe(mission)});
   return {};
@@ -281,7 +281,7 @@ void MissionBoard::On(const exchange::MissionRequest& request) {
   outgoing_.emplace_back(std::move(reply));
 }
 
-// What was sent before is void, also where the robot has not heard of it yet.
+// A stop voids the missions that were sent before, even if the robot has not heard of them yet.
 void MissionBoard::On(const exchange::NowCommand& command, std::int64_t now_unix_ms) {
   if (std::exchange(commands_.Touch({command.client, command.number}), true)) return;
   if (const auto added = store_->Add(command, now_unix_ms); !added) Warn(added.error());

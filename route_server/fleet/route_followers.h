@@ -9,25 +9,27 @@
 
 namespace trailcast::server {
 
-// Where followers are on their routes, told to those on the same one, who do not hear each other.
+// Tells followers on the same route of each other's places, because they do not hear each other.
 //
-// Who arrived has made room. Who ended anywhere else, or is no longer heard, is taken to stand
-// where it last was for kRemembered, and until it tells of another place. No clock, no I/O.
+// A robot that arrived has made room. One that ended anywhere else, or is no longer heard, is taken
+// to stand at its last place for kRemembered, or until it reports another one. It has no clock and
+// no I/O.
 class RouteFollowersBoard {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::seconds kRemembered{60};
-  // Each route is told of so often, and ever more rarely with more on it.
+  // Each route is published this often, and less often with more robots on it.
   static constexpr std::chrono::milliseconds kEvery{200};
   static constexpr std::chrono::milliseconds kForEachFollower{10};
-  // Who is left alone on a route is told so, this often and so long: some of it may be lost.
+  // A robot that is left alone on a route is told so this often and for so long, because some of it
+  // may be lost.
   static constexpr std::chrono::seconds kAloneEvery{1};
   static constexpr std::chrono::seconds kAlone{10};
 
   explicit RouteFollowersBoard(AgentId server) : server_(std::move(server)) {}
 
   void Handle(const exchange::Message& message, Time now);
-  // To be told now.
+  // Returns what is to be published now.
   [[nodiscard]] std::vector<exchange::RouteFollowers> Due(Time now);
 
  private:
@@ -51,7 +53,7 @@ class RouteFollowersBoard {
 
   AgentId server_;
   std::map<route::RouteKey, Route> routes_;
-  std::map<AgentId, route::RouteKey> on_;  // the route that each is on
+  std::map<AgentId, route::RouteKey> on_;  // each follower's route
   Time next_{};                            // nothing is due before
 };
 
