@@ -11,18 +11,19 @@
 namespace trailcast::server {
 namespace {
 
-constexpr std::size_t kMostAlike = 30;  // as some are of the teaching itself
+constexpr std::size_t kMostAlike = 30;  // of which some belong to the teaching itself
 constexpr std::size_t kLeastViews = 3;
-constexpr std::size_t kViewsASegment = 1;  // of several: asking the index is what takes time
+constexpr std::size_t kViewsASegment = 1;  // of several, because querying the index is what takes
+                                           // time
 constexpr std::size_t kDoubtsASegment = 2;
 constexpr std::size_t kMostDoubts = 8;
-// A scout that goes along a route, so many segments at most between two that look like it, is told
-// of it once.
+// A scout that goes along a route is told of it once, as long as no more segments than this lie
+// between two that resemble the route.
 constexpr std::uint32_t kStillThere = 20;
 
 }  // namespace
 
-// The end of what is being taught, as far as it has come.
+// The end of a teaching, as far as it has come.
 struct CrossingWatch::Teaching {
   explicit Teaching(route::RouteInfo taught)
       : info(std::move(taught)),
@@ -34,7 +35,7 @@ struct CrossingWatch::Teaching {
     for (const route::Segment& segment : last) views->Add(segment);
     return views;
   }
-  // Whether the scout is known to be there; if so, it still is.
+  // Says whether the scout is known to be there, and keeps it there.
   [[nodiscard]] bool IsThere(const joints::NearRoute& place) {
     const auto at = there.find(place.key);
     if (at == there.end()) return false;
@@ -48,17 +49,17 @@ struct CrossingWatch::Teaching {
   route::RouteInfo info;
   std::deque<route::Segment> last;
   joints::NearRouteSearch near;
-  std::map<route::RouteKey, std::uint32_t> there;  // routes it was told of: their segments
+  std::map<route::RouteKey, std::uint32_t> there;  // routes it was told of, with their segments
 };
 
-// Whether a teaching crosses a route.
+// A possible crossing between a teaching and a route.
 struct CrossingWatch::Doubt {
   route::RouteKey teaching;
   joints::NearRoute place;
   std::string camera;
   JointComparer::Views views;               // of the teaching
   std::optional<StretchReader> reader{};    // of the route
-  std::optional<std::uint64_t> compared{};  // by this number, now
+  std::optional<std::uint64_t> compared{};  // the number under which it is being compared
 };
 
 CrossingWatch::CrossingWatch(store::RouteStore& store, view::ViewIndex& index,
@@ -153,7 +154,7 @@ void CrossingWatch::Handle(const JointComparer::Done& done) {
   const Doubt doubt = std::move(doubts_.front());
   doubts_.erase(doubts_.begin());
   const auto* teaching = teachings_.Find(doubt.teaching);
-  // The surest is the first.
+  // The first junction is the surest one.
   if (!done.joints || done.joints->empty() || done.joints->front().confidence < kSure) return;
   if (teaching == nullptr || !*teaching) return;
   const auto known = store_.FindRoute(doubt.place.key);

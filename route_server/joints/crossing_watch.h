@@ -15,33 +15,33 @@
 
 namespace trailcast::server {
 
-// A scout that teaches has come to a place of a known route, looking the same way.
+// A place at which a teaching scout has come to a known route, looking the same way.
 struct Crossing {
   route::RouteInfo teaching{};  // as it was known when it was first looked at
   std::string known{};          // that route's name
   double along_m = 0.0;
 };
 
-// Looks for known routes in the last metres of what is being taught, as segments are stored: tells
-// of each once, until the scout has left it. A small part at a time; what is more than strangers
-// may ask for is left out.
+// Looks for known routes in the last metres of a teaching, as segments are stored. It reports each
+// route once until the scout has left it. It works in small parts, and leaves out what exceeds the
+// bounds, because strangers may ask for any amount.
 class CrossingWatch {
  public:
   static constexpr std::size_t kMostTeachings = 64;  // those that grew last
-  static constexpr std::size_t kMostArrived = 256;   // segments that wait to be looked at
+  static constexpr std::size_t kMostArrived = 256;   // segments that wait
   static constexpr std::size_t kLast = 12;           // segments of a teaching that count
 
-  // All outlive it.
+  // All three must outlive it.
   CrossingWatch(store::RouteStore& store, view::ViewIndex& index, JointComparer& comparer);
   ~CrossingWatch();
 
-  // A segment was stored.
+  // Notes a stored segment.
   void NoteStored(const route::RouteKey& key, SegmentIndex segment);
-  // As JointSearch::Step; what cannot be read is left out.
+  // See JointSearch::Step. What cannot be read is left out.
   [[nodiscard]] Result<bool> Step();
   void Handle(const JointComparer::Done& done);
 
-  // Since the last call.
+  // Returns those since the last call.
   [[nodiscard]] std::vector<Crossing> Take() { return std::exchange(crossings_, {}); }
 
  private:
@@ -57,7 +57,7 @@ class CrossingWatch {
   JointComparer& comparer_;
   std::deque<std::pair<route::RouteKey, SegmentIndex>> arrived_;
   NewestMap<route::RouteKey, std::shared_ptr<Teaching>> teachings_{kMostTeachings};
-  std::vector<Doubt> doubts_;  // that wait, the first of them is seen to
+  std::vector<Doubt> doubts_;  // the first of them is being examined
   std::vector<Crossing> crossings_;
 };
 

@@ -40,7 +40,7 @@ void JointComparer::Run() {
       bell_.Wait(kLookEvery);
       continue;
     }
-    // Nobody has put in more than this holds without taking some out.
+    // The queue has room, because nobody puts in more than it holds without taking some out.
     (void)done_.TryPut(Compare(*job));
   }
 }

@@ -14,18 +14,18 @@
 
 namespace trailcast::server {
 
-// Compares routes view by view, on a thread of its own that gives way to all others.
+// Compares routes view by view, on a thread of its own with the lowest priority.
 class JointComparer {
  public:
-  // Of processor time; after it, what was found by then is all.
+  // In processor time. What was found by then is the result.
   static constexpr double kMost_ms = 20'000.0;
 
   using Views = std::shared_ptr<const joints::RouteViews>;
   struct Done {
     std::uint64_t number = 0;
-    Result<std::vector<joints::Joint>> joints{};  // an error: a fault of the program
+    Result<std::vector<joints::Joint>> joints{};  // an error is a fault of the program
   };
-  // `b` may be null: a with itself.
+  // `b` may be null, to compare `a` with itself.
   using Find = std::function<std::vector<joints::Joint>(
       const Views& a, const Views& b, bool same_camera, const joints::JointOptions& options)>;
   [[nodiscard]] static std::vector<joints::Joint> FindAll(const Views& a, const Views& b,
@@ -33,11 +33,11 @@ class JointComparer {
                                                           const joints::JointOptions& options);
 
   explicit JointComparer(Find find = FindAll);
-  ~JointComparer();  // what is being compared is given up
+  ~JointComparer();  // gives up a comparison that is running
   JointComparer(const JointComparer&) = delete;
   JointComparer& operator=(const JointComparer&) = delete;
 
-  // The number that the answer will have; nothing while too many wait.
+  // Returns the number that the answer will have, or nothing while too many wait.
   [[nodiscard]] std::optional<std::uint64_t> TryPut(Views a, Views b, bool same_camera);
   [[nodiscard]] std::optional<Done> TryGet() { return done_.TryGet(); }
 

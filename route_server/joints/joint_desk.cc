@@ -8,9 +8,9 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// All else waits for so long, and for the part that is being done then.
+// Everything else waits for so long, and for the part that is being done then.
 constexpr milliseconds kATurn{3};
-constexpr int kRestsATurn = 3;  // as long as the turn each
+constexpr int kRestsATurn = 3;  // in lengths of a turn
 constexpr milliseconds kAfterTrouble{1000};
 
 }  // namespace

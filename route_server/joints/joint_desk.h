@@ -12,13 +12,13 @@
 
 namespace trailcast::server {
 
-// Where routes meet, looked for beside all else that a server does: what has to read the store or
-// the index of views in turns of some milliseconds, the comparing on a thread of its own.
+// Looks for junctions beside the server's other work. It reads the store and the index of views in
+// turns of some milliseconds, and compares on a thread of its own.
 class JointDesk {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  // Both outlive it. `was_searched`: as JointSearch has it.
+  // Both must outlive it. See JointSearch for `was_searched`.
   JointDesk(store::RouteStore& store, catalog::ViewCatalog& views,
             std::function<bool(const route::RouteKey&)> was_searched);
 
@@ -26,10 +26,10 @@ class JointDesk {
   void NoteStored(const route::RouteKey& key, SegmentIndex segment) {
     crossings_.NoteStored(key, segment);
   }
-  // A turn, if one is due: of four milliseconds one is worked. An error is the store's, or
-  // kInternal: what was compared has no joints for a fault of the program.
+  // Works for one of four milliseconds, if a turn is due. An error is the store's, or kInternal if
+  // a fault of the program kept a comparison from finding junctions.
   [[nodiscard]] Result<void> Turn(Time now);
-  // When the next turn is due; nothing while there is nothing to do in it.
+  // Returns when the next turn is due, or nothing while there is nothing to do.
   [[nodiscard]] std::optional<Time> due() const {
     return busy_ ? std::optional(due_) : std::nullopt;
   }
@@ -39,7 +39,7 @@ class JointDesk {
   [[nodiscard]] std::vector<Crossing> TakeCrossings() { return crossings_.Take(); }
 
  private:
-  // What a scout waits for comes first.
+  // Scouts wait for crossings, so these come first.
   [[nodiscard]] Result<bool> Step();
 
   catalog::ViewCatalog& views_;

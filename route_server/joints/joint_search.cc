@@ -12,10 +12,10 @@
 namespace trailcast::server {
 namespace {
 
-// So many of those most like a view: some are of the route itself, or of other revisions.
+// Of a view's best matches, some belong to the route itself, or to other revisions of it.
 constexpr std::size_t kMostAlike = 30;
-// Two routes run together for longer than their likest views tell, and the joint is where they
-// begin to: so many segments to either side are compared, too.
+// Two routes run together for longer than their most similar views show, and the junction is where
+// they begin to. So many segments on either side are therefore compared as well.
 constexpr std::uint32_t kMargin = 20;
 constexpr std::uint32_t kPage = 100;
 constexpr std::size_t kMostWaiting = 1'000;
@@ -34,7 +34,7 @@ Meeting MeetingOf(const route::RouteKey& a, const route::RouteKey& b, const join
 
 }  // namespace
 
-// Of one revision.
+// The search for one revision.
 struct JointSearch::Search {
   explicit Search(route::RouteInfo searched)
       : info(std::move(searched)),
@@ -48,9 +48,10 @@ struct JointSearch::Search {
   std::deque<route::KeyView> to_look_for;
   joints::NearRouteSearch near;
 
-  std::optional<std::deque<joints::NearRoute>> to_compare;  // once all is read
+  std::optional<std::deque<joints::NearRoute>> to_compare;  // once everything is read
   std::optional<StretchReader> reader;                      // of one of them
-  std::optional<std::uint64_t> compared;                    // by this number, now
+  std::optional<std::uint64_t> compared;                    // the number under which it is being
+                                                            // compared
   route::RouteKey with;
 };
 
@@ -70,7 +71,7 @@ void JointSearch::Note(const route::RouteInfo& info) {
   if (waiting_.size() < kMostWaiting) {
     waiting_.push_back(info.key);
   } else {
-    // Found by walking through the store anew.
+    // The new walk through the store finds it.
     walked_ = false;
     cursor_.clear();
   }
@@ -147,7 +148,7 @@ Result<void> JointSearch::Read(Search& search) {
 Result<void> JointSearch::StepToNear(Search& search) {
   if (search.reader) {
     const auto read = search.reader->Step(store_);
-    // What cannot be read now is no place to change over to.
+    // A route that cannot be read now offers no place to change over.
     if (!read && read.error().code == ErrorCode::kUnavailable) return tl::unexpected(read.error());
     if (read && !*read) return {};
     if (read) Compare(search, search.reader->TakeViews(), search.reader->info());

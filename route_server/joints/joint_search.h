@@ -15,29 +15,29 @@
 
 namespace trailcast::server {
 
-// Looks for places where a revision that robots follow meets others, or itself: each of them once,
-// those of the store at the start, too. The index of views says what is worth comparing. A small
-// part at a time.
+// Looks for places where a revision that robots follow meets others, or itself. It searches each
+// revision once, including those in the store at the start. The index of views tells which routes
+// are worth comparing. It works in small parts.
 class JointSearch {
  public:
   static constexpr std::size_t kMostNearRoutes = 20;
 
-  // All outlive it. `was_searched`: by earlier runs.
+  // All must outlive it. `was_searched` tells what earlier runs have done.
   JointSearch(store::RouteStore& store, view::ViewIndex& index, JointComparer& comparer,
               std::function<bool(const route::RouteKey&)> was_searched);
   ~JointSearch();
 
-  // What is known of a revision may have changed.
+  // Notes that the knowledge of a revision may have changed.
   void Note(const route::RouteInfo& info);
-  // Reads a segment, or asks the index about a view. False: there is nothing to do, or what is
-  // being compared is waited for. An error is the store's: that search is left out, or, where it is
+  // Reads a segment, or queries the index for a view. Returns false if there is nothing to do, or a
+  // comparison is running. An error is the store's; that search is left out or, if it is
   // kUnavailable, begins anew later.
   [[nodiscard]] Result<bool> Step();
   void Handle(const JointComparer::Done& done);
 
-  // Since the last call.
+  // Returns those since the last call.
   [[nodiscard]] std::vector<Meeting> TakeMeetings() { return std::exchange(meetings_, {}); }
-  // Revisions with whose meetings it is through; to be taken after those.
+  // Returns the revisions whose meetings are complete. Take these after the meetings.
   [[nodiscard]] std::vector<route::RouteKey> TakeSearched() { return std::exchange(searched_, {}); }
 
  private:
