@@ -13,43 +13,43 @@
 
 namespace trailcast::server {
 
-// How well robots have followed each stretch of a revision lately, by what they say of themselves:
-// how often one came over it, and how often one lost its path there, found again or not. Both count
-// half after a week, by the caller's clock. No I/O.
+// How well robots have followed each section of a revision lately, by their reports: how often one
+// passed it, and how often one lost its path there, whether or not it found it again. Both counts
+// halve in a week, by the caller's clock. It has no I/O.
 class FollowedLately {
  public:
   static constexpr double kHalfAfter_ms = 7.0 * 24.0 * 3600.0 * 1000.0;
-  // A metre of a stretch where all were lost costs so many more. A robot that has lost its path
-  // looks about for some half a minute, in which others drive 20 m, and may need somebody: that
-  // much further round is better. No stretch is worse, since the robots may be at fault as well.
+  // The additional cost of a metre of a section where all robots were lost. A robot that has lost
+  // its path searches for some half a minute, in which others drive 20 m, and may need help; so
+  // much of a detour is better. The cost is bounded, because the robots may be at fault as well.
   static constexpr double kLostCosts = 4.0;
-  // Besides those that came over it, so many are taken to have done so well: one that was lost says
-  // less than many, and what has faded next to nothing.
+  // So many robots are assumed to have passed it well, in addition to those that did. One lost
+  // robot then counts for less than many, and old reports for almost nothing.
   static constexpr double kTakenForGranted = 2.0;
-  // Beyond it those are forgotten that were not heard of for longest.
+  // Beyond this number those with the oldest news are forgotten.
   static constexpr std::size_t kMostStretches = store::NetworkStore::kMostFollowed;
 
-  // Of a complete revision; nothing: it is not known.
+  // Returns the length of a complete revision, or nothing if it is not known.
   using LengthOf = std::function<std::optional<double>(const route::RouteKey&)>;
   explicit FollowedLately(LengthOf length_of) : length_of_(std::move(length_of)) {}
 
   void Load(std::span<const store::FollowedStretch> followed);  // the oldest first
   void Hear(const exchange::FollowedStretches& told, std::int64_t now_unix_ms);
 
-  // A stretch that costs more for it. To the tenth, as people are told.
+  // A section that therefore costs more, rounded to tenths as people see it.
   struct Poor {
     route::RouteKey key{};
     double from_m = 0.0;
-    double to_m = 0.0;  // beyond the route's end: up to it
+    double to_m = 0.0;  // may be beyond the route's end, which it then means
     double passed = 0.0;
     double lost = 0.0;
     double cost = 1.0;  // of a metre; above 1
     bool operator==(const Poor&) const = default;
   };
-  // By revision, and along it.
+  // Returns them by revision, and along each.
   [[nodiscard]] std::vector<Poor> Poorly(std::int64_t now_unix_ms) const;
 
-  // What has changed since it was last saved.
+  // Returns the changes since it was last saved.
   [[nodiscard]] std::vector<store::FollowedStretch> Unsaved() const;
   void NoteSaved();
 

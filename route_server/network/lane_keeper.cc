@@ -39,7 +39,7 @@ LaneSet With(LaneSet some, const LaneSet& others) {
   return some;
 }
 
-// Metres along the way, of what is on it within so many.
+// Returns the metres along the path of a place that is within `within_m` of it.
 std::optional<double> FindOn(const std::vector<Stretch>& way, double within_m,
                              const network::Place& place) {
   double before_m = 0.0;
@@ -53,7 +53,7 @@ std::optional<double> FindOn(const std::vector<Stretch>& way, double within_m,
   return std::nullopt;
 }
 
-// It may wait where a place is no longer narrow.
+// Says whether it may wait at a place that is no mutex zone any more.
 bool MayWait(const mission::Record* record) {
   if (record == nullptr) return false;
   const auto tasks = mission::ParseOrders(record->mission.orders);
@@ -67,15 +67,15 @@ std::string Who(const mission::Record& record) {
 
 }  // namespace
 
-// What is left of a robot's way.
+// The rest of a robot's path.
 struct LaneKeeper::Rest {
-  mission::Going going{};        // to nowhere: it is sent along routes by hand
+  mission::Going going{};        // without a destination if it was sent along routes by hand
   std::vector<Stretch> now{};    // what it may drive,
-  std::vector<Stretch> later{};  // and what comes once it is let in
-  bool may_ask = false;          // it has heard of this, and is where that ends,
-  bool stands = false;           // or says that it stands there
+  std::vector<Stretch> later{};  // and what follows once it is let in
+  bool may_ask = false;          // it has heard of these orders and is at their end,
+  bool stands = false;           // or reports that it stands there
   bool heard = false;
-  bool placed = false;  // where it is is known
+  bool placed = false;  // its place is known
   double speed_mps = 0.0;
 
   [[nodiscard]] bool backwards() const {
@@ -88,7 +88,8 @@ LaneKeeper::Lines LaneKeeper::LookAtAll(Time now) {
   Lines lines;
   if (!since_) since_ = now;
   if (!network_.HasLanes()) return lines;
-  // They may still be told to drive on in it: they are told to wait, if they ever hear of it.
+  // Their orders may still let them drive on in the zone, so they are told to wait, if they ever
+  // hear it.
   for (const AgentId& agent : network_.TakeVacated()) {
     const mission::Record* record = missions_.CurrentOf(agent);
     if (record == nullptr) continue;
@@ -151,7 +152,7 @@ Result<LaneKeeper::Rest> LaneKeeper::RestOf(const mission::Record& record, Robot
     (waits ? rest.later : rest.now).push_back(*std::move(stretch));
   }
   rest.heard = last.way >= rest.going.way;
-  // Before it drives it may have said where it was before.
+  // Its report may be from before it began to drive.
   const bool drives = last.state == State::kUnderWay || last.state == State::kPaused ||
                       (rest.heard && rest.going.way > 1);
   const auto* stand = network_.StandOf(sent.agent);
@@ -201,7 +202,7 @@ Result<bool> LaneKeeper::Settle(const AgentId& agent, Robot& robot, Time now, Li
   if (stand != nullptr) {
     const bool backwards = rest && rest->backwards();
     in = network::LanesAt(stand->place, *lanes, backwards);
-    // Who has it, and stopped at its very beginning, still has it.
+    // A robot that holds a zone and stopped at its very beginning still holds it.
     in.merge(Common(held, network::LanesAt(stand->place, *lanes, backwards, 0.0)));
   }
   LaneSet has = in;
@@ -211,9 +212,10 @@ Result<bool> LaneKeeper::Settle(const AgentId& agent, Robot& robot, Time now, Li
     has.merge(network::LanesOn(rest->now, *lanes));
     heard = rest->heard;
     by_hand = rest->going.to.empty();
-    // Where it is not known yet, what is behind it may count as before it.
+    // If its place is not known yet, a zone behind it may look as if it were ahead.
     if (!by_hand && !rest->placed) has = With(Common(has, held), in);
-    // Narrow since it was sent: it has this until it has heard that it is to wait.
+    // The zone was made after the robot was sent. The robot holds it until it has heard that it
+    // must wait.
     if (!by_hand && !Without(has, With(held, in)).empty()) {
       if (auto barred = Bar(*record, *rest, lines); !barred) return tl::unexpected(barred.error());
     }
@@ -234,7 +236,7 @@ Result<bool> LaneKeeper::Settle(const AgentId& agent, Robot& robot, Time now, Li
     }
   }
   const LaneSet left = Without(held, has);
-  // Of where it is nothing is known before it has said so.
+  // Nothing is known of its place until it has reported it.
   const bool is_sure = heard && stand != nullptr;
   const LaneSet out_of = is_sure ? left : LaneSet{};
   if (robot.out_of != out_of) {
@@ -251,7 +253,7 @@ Result<bool> LaneKeeper::Settle(const AgentId& agent, Robot& robot, Time now, Li
   return true;
 }
 
-// It is to wait before what it has not been let into.
+// Orders the robot to wait before zones that it may not enter.
 Result<void> LaneKeeper::Bar(const mission::Record& record, const Rest& rest, Lines& lines) {
   std::vector<Stretch> way = rest.now;
   way.insert(way.end(), rest.later.begin(), rest.later.end());
@@ -290,7 +292,7 @@ Result<void> LaneKeeper::LetIn(const AgentId& agent, Robot& robot, Time now, Lin
   std::optional<WhyNot> why_not;
   std::string because = "enters what is no longer narrow";
   if (stays) {
-    // What is left of the first leg is a part of the second.
+    // The rest of the first leg belongs to the second.
     Leg& leg = legs[1];
     leg.through_m += LengthOf(legs.front().stretches);
     leg.stretches.insert(leg.stretches.begin(), legs.front().stretches.begin(),
@@ -301,10 +303,10 @@ Result<void> LaneKeeper::LetIn(const AgentId& agent, Robot& robot, Time now, Lin
   }
   if (why_not) {
     const bool is_queued = rest->going.why == Why::kQueued;
-    // After the server has started, a robot is taken to have been told what is so now.
+    // After the server has started, a robot is assumed to know what holds now.
     if (is_queued && !robot.told) robot.told = why_not;
     const bool is_told = is_queued && robot.told == why_not;
-    // While it still drives it may come to an end without a stop.
+    // While it still drives, the reason may end before it stops.
     if (is_told || !rest->stands) return {};
     const std::string waits = ToText(*why_not);
     lines.push_back(Who(*record) + waits);
@@ -333,7 +335,7 @@ std::optional<LaneKeeper::WhyNot> LaneKeeper::WhyNotInto(const AgentId& agent, c
       return WhyNot{other, network_.Called(lane), now - heard_at > kSilent};
     }
   }
-  // Beyond it there has to be room.
+  // There must be room beyond the zone.
   const auto* own = network_.StandOf(agent);
   const auto own_m =
       own == nullptr || !own->now ? std::nullopt : FindOn(leg.stretches, leg.through_m, own->place);

@@ -56,8 +56,8 @@ std::string PlacesText(const std::string& line) {
   return network::ToText(joint.from) + " " + network::ToText(joint.to);
 }
 
-// What an edit has done, as one edit each: of several proposals that were confirmed, each joint.
-// `words`: the edit; `lines`: its answer.
+// Describes the effect of an edit as one edit each; confirming several proposals gives one for each
+// junction. `words` are the edit, and `lines` its answer.
 std::vector<std::string> DoneText(const Edit& edit, const std::string& words, const Lines& lines) {
   switch (edit.kind) {
     case Edit::Kind::kJoin:
@@ -172,7 +172,7 @@ void NetworkBoard::Note(const route::RouteInfo& info) {
   if (info.standing == route::Standing::kDeleted) DropProposals(info.key);
   const auto at = known_.find(info.key.route);
   if (at == known_.end()) {
-    // Its name may no longer tell another from it.
+    // Its name may no longer identify one route.
     if (!names_.contains(info.name)) return;
     known_.clear();
   } else {
@@ -238,7 +238,7 @@ Result<Lines> NetworkBoard::Join(Joint joint, const std::string& by, std::int64_
 
 Result<Lines> NetworkBoard::Part(const Joint& joint) {
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
-  // Those of deleted routes are known by what they are called in the list alone.
+  // Routes that were deleted are known only by their name in the list.
   const auto from = Resolve(joint.from);
   const auto to = Resolve(joint.to);
   std::vector<Joint> parted;

@@ -23,89 +23,90 @@
 
 namespace trailcast::server {
 
-// How routes are joined and what places are called, as operators say, and which ways that makes. A
-// joint is one of two revisions, whose metres it names: it is used while both are those that robots
-// follow; a name is that of a place on one revision likewise. What is
-// closed or limited is so on whichever revision is followed. Joints that were found are proposed
-// while both revisions are followed, until an operator has confirmed or refused them. No clock of
-// its own.
+// Keeps the network as operators define it: junctions, conditions and names of places; and plans
+// paths over it. A junction is between two revisions, at their metres, and is used while both are
+// those that robots follow. A named place is likewise on one revision. Closures and limits apply to
+// whichever revision is followed. Junctions that were found are proposed while both revisions are
+// followed, until an operator has confirmed or refused them. It has no clock of its own.
 class NetworkBoard {
  public:
-  // Strangers can make up names: beyond it the one is forgotten that was not heard of for longest.
+  // Strangers can make up names, so beyond this number the one with the oldest news is forgotten.
   static constexpr std::size_t kMostAgents = 4096;
-  // Within so many metres a joint, or a place on a route, is the same.
+  // Junctions, or places on a route, within so many metres are the same.
   static constexpr double kSame_m = network::kSame_m;
-  // Two found so near each other are one, and nobody needs one so near to a joint.
+  // Two meetings found within this distance are one, and one this near to a junction is not needed.
   static constexpr double kSameMeeting_m = 2.0;
-  // Refused ones counted, and those that became joints.
+  // Including refused ones and those that became junctions.
   static constexpr std::size_t kMostOfAPair = 8;
 
-  // `routes` outlives this.
+  // `routes` must outlive this.
   [[nodiscard]] static Result<std::unique_ptr<NetworkBoard>> Open(
       AgentId server, std::unique_ptr<store::NetworkStore> store, store::RouteStore& routes);
 
-  // On the disk when it returns. The same request asked again is answered again, and carried out
-  // once.
+  // Makes an edit, which is on the disk when this returns. A repeated request is answered again,
+  // but carried out once.
   [[nodiscard]] exchange::NetworkReply Change(const exchange::NetworkEdit& edit,
                                               std::int64_t now_unix_ms);
   [[nodiscard]] exchange::NetworkReply Answer(const exchange::NetworkRequest& request);
-  // Where robots say that they stand.
+  // Hears where robots stand, by their own reports.
   void Hear(const exchange::AgentStatus& status);
-  // What robots say of how they follow.
+  // Holds robots' reports on how they follow.
   [[nodiscard]] FollowedLately& followed() { return followed_; }
-  // From now on ways lead by what was heard of that, and it is on the disk.
+  // Plans paths by these reports from now on, and writes them to the disk.
   [[nodiscard]] Result<void> KeepFollowed(std::int64_t now_unix_ms);
-  // What is known of a revision may have changed.
+  // Notes that the knowledge of a revision may have changed.
   void Note(const route::RouteInfo& info);
 
   struct Proposed {
     std::string line{};  // as it is listed
     bool taken = false;
   };
-  // What this adds to what is proposed: nothing where a joint is near, or one was proposed before,
-  // whatever became of it; where a revision is not followed; or where there is no more room.
-  // `take_from`: of this confidence on it is made a joint at once.
+  // Returns the proposal that a meeting adds. There is none if a junction is near, if one was
+  // proposed there before, whatever became of it, if a revision is not followed, or if there is no
+  // room. From the confidence `take_from` on, it becomes a junction at once.
   [[nodiscard]] Result<std::optional<Proposed>> Propose(const Meeting& meeting, double take_from,
                                                         std::int64_t now_unix_ms);
-  // Whether a revision's meetings were looked for.
+  // Says whether a revision was searched for meetings.
   [[nodiscard]] bool WasSearched(const route::RouteKey& key) const;
-  // Durable once it is saved, many at a time; what is lost is looked for again.
+  // Marks are saved many at a time. Lost marks cause another search.
   void MarkSearched(const route::RouteKey& key);
   [[nodiscard]] Result<void> SaveSearched();
-  // Proposals that wait for an operator's word, of revisions followed or not.
+  // Returns how many proposals await an operator's decision, of revisions followed or not.
   [[nodiscard]] std::size_t open_proposals() const;
-  // What was changed since the last call, and by whom: edits, as they are listed.
+  // Returns the edits since the last call, with their authors, as they are listed.
   [[nodiscard]] std::vector<network::Change> TakeMade() { return std::exchange(made_, {}); }
-  // For robots under way. Places and stretches are of revisions that are followed ("ID/TEACHING").
+  // The following is for robots under way. Their places and sections are of revisions that are
+  // followed ("ID/TEACHING").
   //
-  // Counts up with whatever may have changed a way.
+  // Returns a number that rises with whatever may have changed a path.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
   struct Stand {
     network::Place place{};
     double speed_mps = 0.0;
-    bool now = false;  // its last word had it
+    bool now = false;  // its last report had it
   };
-  // Where a robot last said that it is; null: it has not.
+  // Returns where a robot last reported itself, or null if it has not.
   [[nodiscard]] const Stand* StandOf(const AgentId& agent) const { return places_.Find(agent); }
-  // Of orders that one to follow a part of a route.
+  // Returns the section of one of the orders, which must be to follow a part of a route.
   [[nodiscard]] Result<network::Stretch> StretchOf(std::span<const mission::Task> tasks,
                                                    std::size_t number);
   [[nodiscard]] mission::Task TaskOf(const network::Stretch& stretch) const;
-  // As the network has them.
+  // Returns conditions as the network has them.
   [[nodiscard]] Result<std::optional<network::Condition>> FirstClosed(
       const network::Stretch& stretch);
   [[nodiscard]] Result<std::optional<network::Condition>> ClosedAround(const network::Place& place);
   [[nodiscard]] std::string Called(const network::Condition& closed) const;  // "hall 3..7"
   [[nodiscard]] Result<std::vector<network::Stretch>> WayOn(const network::Place& from,
                                                             const std::string& goal);
-  // Where it is on other routes: of joints that were found, as far as the routes run together.
+  // Returns the same place on other routes, by junctions that were found, as far as the routes run
+  // together.
   [[nodiscard]] Result<std::vector<network::Place>> AlsoAt(const network::Place& place);
 
-  // Narrow places, by their positions here until one is made or goes (changes()), and who has them:
-  // on the disk when it returns.
+  // Mutex zones, by their indices here, which are valid until one is made or removed (changes()),
+  // and their holders. Changes are on the disk when the call returns.
   using LaneSet = std::set<std::size_t>;
   [[nodiscard]] bool HasLanes() const { return !lanes_.empty(); }
-  // Of revisions that are followed.
+  // Returns zones of revisions that are followed.
   [[nodiscard]] Result<std::vector<network::Lane>> Lanes();
   [[nodiscard]] const std::set<AgentId>& HoldersOf(std::size_t lane) const {
     return lanes_[lane].holders;
@@ -113,19 +114,20 @@ class NetworkBoard {
   [[nodiscard]] LaneSet HeldBy(const AgentId& agent) const;
   [[nodiscard]] Result<void> Hold(const LaneSet& lanes, const AgentId& agent);
   [[nodiscard]] Result<void> Release(const LaneSet& lanes, const AgentId& agent);
-  [[nodiscard]] std::string Called(std::size_t lane) const;  // by its first part
-  // Whose word on where they are an operator has contradicted, since this was asked last.
+  [[nodiscard]] std::string Called(std::size_t lane) const;  // named after its first part
+  // Returns the robots whose reported places an operator has contradicted since the last call.
   [[nodiscard]] std::set<AgentId> TakeVacated() { return std::exchange(vacated_, {}); }
-  // As a mission has a way: it waits before lanes that are not open to it (network::LegsOf).
+  // Returns a path as a mission has it: it waits before zones that are not open to it
+  // (network::LegsOf).
   [[nodiscard]] Result<std::vector<mission::Task>> TasksOf(std::span<const network::Stretch> way,
                                                            const LaneSet& open);
   [[nodiscard]] std::vector<mission::Task> TasksOf(std::span<const network::Leg> legs) const;
 
  private:
-  // Of a route the revision that robots follow, if there is one.
+  // A route's revision that robots follow, if there is one.
   struct Known {
     std::optional<route::RouteInfo> followed;
-    std::string called;  // its name, or its id where that may mean others, too
+    std::string called;  // its name, or its id if the name may mean others, too
   };
   NetworkBoard(AgentId server, std::unique_ptr<store::NetworkStore> store,
                store::RouteStore& routes)
@@ -148,41 +150,45 @@ class NetworkBoard {
   [[nodiscard]] Result<std::vector<std::string>> Forget(const std::string& name);
   [[nodiscard]] Result<std::vector<std::string>> Narrow(network::Lane lane, const std::string& by,
                                                         std::int64_t now_unix_ms);
-  // Whoever drives backwards would meet those that come the other way: it is narrow there, too.
+  // A robot that reverses would meet those that come the other way, so the section becomes a mutex
+  // zone, too.
   [[nodiscard]] Result<std::vector<std::string>> LetBack(const network::Edit& edit,
                                                          const std::string& by,
                                                          std::int64_t now_unix_ms);
-  // Of kWide and kVacate.
+  // Carries out kWide and kVacate.
   [[nodiscard]] Result<std::vector<std::string>> Leave(const network::Edit& edit);
   [[nodiscard]] std::vector<std::int64_t> NumbersOf(const LaneSet& lanes) const;
   [[nodiscard]] network::Lane CalledLane(const store::KeptLane& kept) const;
-  // Confirms, or refuses, what is proposed.
+  // Confirms or refuses proposals.
   [[nodiscard]] Result<std::vector<std::string>> Settle(const network::Edit& edit,
                                                         const std::string& by,
                                                         std::int64_t now_unix_ms);
-  // Those that wait for a word on them and are listed: of revisions that are followed, where no
-  // joint is. Positions.
+  // Returns the indices of the listed proposals that await a decision: both revisions are followed,
+  // and there is no junction.
   [[nodiscard]] std::vector<std::size_t> Open() const;
   [[nodiscard]] Result<std::vector<std::size_t>> OpenAt(const network::Joint& joint) const;
   void DropProposals(const route::RouteKey& key);
   [[nodiscard]] Result<std::vector<std::string>> All();
-  // To words that ask; without any, all.
+  // Answers a question; an empty one means everything.
   [[nodiscard]] Result<std::vector<std::string>> Answered(const std::string& words);
   [[nodiscard]] Result<std::vector<std::string>> WayTo(const network::Question& question);
-  // By joints that are used and that are proposed: of those that were found as far as the routes
-  // run together, of others as far as one is the same joint.
+  // Goes by junctions that are used or proposed. For those that were found, it reaches as far as
+  // the routes run together; for others, as far as the junction's own place.
   [[nodiscard]] Result<std::vector<std::string>> WhatPasses(const network::Goal& goal);
-  // Where the other route of a joint passes at `place`, if it does and is not found yet.
+  // Adds where the other route of a junction passes at `place`, if it does and is not in the list
+  // yet.
   void AddPassing(const network::Place& place, const network::Joint& joint, double shared_m,
                   std::optional<double> confidence, std::vector<network::Passing>& found) const;
-  // Metres that its routes run together, as they were found to; 0: nobody knows.
+  // Returns how many metres its routes run together, as far as was found, or 0 if that is not
+  // known.
   [[nodiscard]] double SharedBy(const network::Joint& joint) const;
 
-  // The complete revision that ROUTE[@REVISION] means, of some length.
+  // Returns the complete revision, with a length, that ROUTE[@REVISION] means.
   [[nodiscard]] Result<route::RouteInfo> Meant(const std::string& words) const;
   [[nodiscard]] Result<network::Place> Resolve(const network::Place& named) const;
   [[nodiscard]] Result<network::Place> Resolve(const network::Goal& goal) const;
-  // Looks up what is not known of the routes that are joined or have named places, and of these.
+  // Looks up the routes that are joined or have named places, and the ones asked for, if they are
+  // not known yet.
   [[nodiscard]] Result<void> Know(const std::set<RouteId>& asked);
   [[nodiscard]] Result<Known> LookUp(const RouteId& route) const;
   [[nodiscard]] std::optional<double> LengthOf(const route::RouteKey& key) const;
@@ -190,7 +196,7 @@ class NetworkBoard {
   [[nodiscard]] std::vector<std::string> PoorLines() const;
   void NoteChange();
   [[nodiscard]] bool IsUsed(const network::Place& place) const;
-  // As people are shown it: "hall@12", "hall@1@12" of a revision that is not followed.
+  // Return how people see it: "hall@12", or "hall@1@12" for a revision that is not followed.
   [[nodiscard]] Result<network::Place> Called(const network::Place& place) const;
   [[nodiscard]] Result<network::Joint> Called(network::Joint joint) const;
   [[nodiscard]] Result<network::NamedPlace> Called(network::NamedPlace named) const;
@@ -206,16 +212,16 @@ class NetworkBoard {
   std::vector<store::KeptLane> lanes_;           // of routes
   std::set<AgentId> vacated_;
   FollowedLately followed_;
-  std::vector<FollowedLately::Poor> poor_;  // by which ways lead
+  std::vector<FollowedLately::Poor> poor_;  // sections by which paths are planned
   std::set<std::string> searched_;          // revisions
-  std::vector<std::string> unsaved_;        // of these
+  std::vector<std::string> unsaved_;        // those of them that are not on the disk
   std::map<RouteId, Known> known_;
-  std::set<std::string> names_;              // of those
+  std::set<std::string> names_;              // of those routes
   std::optional<network::Network> network_;  // of those, by revision
   std::uint64_t changes_ = 1;
-  std::vector<network::Change> made_;  // that nobody was told of yet
+  std::vector<network::Change> made_;  // not reported yet
   NewestMap<AgentId, Stand> places_{kMostAgents};
-  // What the last edits were answered with.
+  // The answers to the last edits.
   NewestMap<std::pair<AgentId, std::uint64_t>, std::optional<exchange::NetworkReply>> answered_{64};
 };
 

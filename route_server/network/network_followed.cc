@@ -1,4 +1,4 @@
-// What a network board knows of how well robots follow.
+// This part of NetworkBoard knows how well robots follow.
 #include <algorithm>
 #include <utility>
 
@@ -8,7 +8,7 @@
 namespace trailcast::server {
 
 Result<void> NetworkBoard::KeepFollowed(std::int64_t now_unix_ms) {
-  // No NoteChange(): who is under way is not sent another way for it.
+  // NoteChange() is left out, because robots under way keep their path.
   auto poor = followed_.Poorly(now_unix_ms);
   if (poor != poor_) network_.reset();
   poor_ = std::move(poor);

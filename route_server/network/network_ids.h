@@ -13,7 +13,7 @@
 
 namespace trailcast::server {
 
-// What a network is told to call a revision.
+// Returns a revision's name in the network.
 [[nodiscard]] inline std::string IdOf(const route::RouteKey& key) {
   return fmt::format("{}/{}", key.route.value(), key.teaching.value());
 }

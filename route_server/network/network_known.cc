@@ -1,4 +1,4 @@
-// What a network board knows of routes: which are meant and followed, and what they are called.
+// This part of NetworkBoard knows which routes are meant and followed, and their names.
 #include <fmt/format.h>
 
 #include <algorithm>

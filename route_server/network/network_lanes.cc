@@ -1,4 +1,4 @@
-// What a network board knows of narrow places.
+// This part of NetworkBoard keeps mutex zones.
 #include <fmt/format.h>
 
 #include <algorithm>

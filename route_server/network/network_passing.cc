@@ -1,4 +1,4 @@
-// Which routes pass at a place, as a network board knows by its joints.
+// This part of NetworkBoard finds the routes that pass at a place, by junctions.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,8 +14,9 @@ using network::Joint;
 using network::Passing;
 using network::Place;
 
-// How far along its route the other one is beside `place`, by a joint from `here` to `there` of
-// routes that share so many metres; nothing where they do not run together, or not on that route.
+// Returns the other route's metres beside `place`, by a junction from `here` to `there` of routes
+// that share `shared_m`. It is nothing if they do not run together there, or the junction is not on
+// that route.
 std::optional<double> AlongOther(const Place& place, const Place& here, const Place& there,
                                  double shared_m) {
   constexpr double kLeast_m = NetworkBoard::kSameMeeting_m;

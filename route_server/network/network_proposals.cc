@@ -1,4 +1,4 @@
-// What a network board makes of joints that were found.
+// This part of NetworkBoard handles junctions that were found.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -23,7 +23,7 @@ Joint JointOf(const Meeting& meeting) {
               .to = {IdOf(meeting.b), ToCentimetre(meeting.at_b_m)},
               .both = true};
   double turn_rad = meeting.heading_rad.value_or(0.0);
-  // Of a route that comes back, its end leads to its beginning.
+  // On a route that comes back, the end leads to the beginning.
   if (meeting.a == meeting.b && joint.from.along_m < joint.to.along_m) {
     std::swap(joint.from, joint.to);
     turn_rad = -turn_rad;
@@ -37,7 +37,8 @@ bool IsBeside(const Place& one, const Place& other, double length_m, double with
          other.along_m <= one.along_m + length_m + within_m;
 }
 
-// Whether the other's places are these, or further along a stretch that both run together.
+// Says whether the other junction's places are these, or further along the common section of both
+// routes.
 bool Covers(const Joint& joint, double length_m, const Joint& other, double within_m) {
   const auto beside = [&](const Place& from, const Place& to) {
     return IsBeside(joint.from, from, length_m, within_m) &&
@@ -123,7 +124,7 @@ void NetworkBoard::DropProposals(const route::RouteKey& key) {
   if (searched_.erase(id) == 0 && dropped == 0) return;
   std::erase(unsaved_, id);
   NoteChange();
-  // What stays on the disk is of a revision that is not there, and is listed nowhere.
+  // What stays on the disk belongs to a revision that is gone, and is not listed.
   (void)store_->DropProposals(id);
 }
 
@@ -174,7 +175,7 @@ Result<std::vector<std::string>> NetworkBoard::Settle(const Edit& edit, const st
       return confidence < edit.all->least || confidence > edit.all->most;
     });
   }
-  // The others are there to be asked for again.
+  // The remaining ones can be asked for again.
   open->resize(std::min(open->size(), exchange::kMaxNetworkLines));
   const bool taken = edit.kind == Edit::Kind::kConfirm;
   std::vector<std::string> lines;

@@ -16,7 +16,7 @@ namespace {
 using mission::Task;
 using network::Stretch;
 
-// Two stretches of which one goes on where the other ends are one to a robot.
+// Two sections of which one continues where the other ends are one to a robot.
 void Append(std::vector<Stretch>& way, const Stretch& next) {
   const bool is_none = next.length_m() <= NetworkBoard::kSame_m && next.turn_rad == 0.0;
   if (is_none && !way.empty()) return;
@@ -27,7 +27,7 @@ void Append(std::vector<Stretch>& way, const Stretch& next) {
   }
 }
 
-// It stands off the way that it was sent last, by its own word.
+// Says whether it reports that it stands off its last path.
 bool AsksForWay(const mission::Record& record) {
   const auto going = mission::GoingIn(record.mission.orders);
   return going && record.last.state == mission::State::kFetching &&
@@ -36,22 +36,22 @@ bool AsksForWay(const mission::Record& record) {
 
 }  // namespace
 
-// What is left of a robot's way.
+// The rest of a robot's path.
 struct Replanning::Rest {
-  mission::Going going{};  // to nowhere: it is sent along routes by hand
+  mission::Going going{};  // without a destination if it was sent along routes by hand
   std::vector<Stretch> stretches{};
-  std::optional<NetworkBoard::Stand> stand{};  // where it is, if it has said so
-  bool missed = false;                         // it is off its way,
-  bool passed = false;                         // where it was to leave its route
-  bool waits = false;                          // for a way
-  std::optional<network::Condition> closed{};  // the first that it leads over
-  std::optional<network::Condition> around{};  // that it is on
+  std::optional<NetworkBoard::Stand> stand{};  // its place, if it has reported one
+  bool missed = false;                         // it is off its path,
+  bool passed = false;                         // and past the place where it had to leave its route
+  bool waits = false;                          // for a path
+  std::optional<network::Condition> closed{};  // the first closed section on its path
+  std::optional<network::Condition> around{};  // the closed section in which it is
 };
 
-// From where it is.
+// A new path from the robot's place.
 struct Replanning::Plan {
   std::vector<Stretch> way{};
-  std::string no_way{};  // not empty: there is none, and the stretches lead to where it waits
+  std::string no_way{};  // if not empty, there is no path, and the sections lead to where it waits
 };
 
 std::vector<std::string> Replanning::LookAtAll(Time now) {
@@ -105,7 +105,7 @@ Result<Replanning::Rest> Replanning::RestOf(const mission::Record& record) {
   rest.going = mission::GoingIn(record.mission.orders).value_or(mission::Going{});
   rest.waits = tasks->back().kind == Task::Kind::kWaitWay;
   std::vector<Stretch> all;
-  std::size_t said = 0;  // which of these it is at by its own word
+  std::size_t said = 0;  // index of the one that it reports
   bool laps = false;
   for (std::size_t i = 0; i < tasks->size(); ++i) {
     if (i == record.last.task) said = all.size();
@@ -141,7 +141,7 @@ Result<Replanning::Rest> Replanning::RestOf(const mission::Record& record) {
   return rest;
 }
 
-// Of all its stretches what is left from where it stands; `said`: which it is at by its own word.
+// Takes the rest of all its sections from its place on; `said` is the index that it reports.
 void Replanning::TakeFrom(const std::vector<Stretch>& all, std::size_t said, bool drives, bool laps,
                           Rest& rest) {
   auto at = all.begin() + static_cast<std::ptrdiff_t>(said);
@@ -152,7 +152,7 @@ void Replanning::TakeFrom(const std::vector<Stretch>& all, std::size_t said, boo
         all.front().DrivenAt(rest.stand->place.along_m) > all.front().length_m() + kBeyond_m &&
         std::none_of(all.begin(), all.end(), holds);
     rest.passed = rest.missed;
-    // Before it drives it may have said where it was before.
+    // Its report may be from before it began to drive.
     const auto found = holds(*at) || !drives ? at : std::find_if(all.begin(), all.end(), holds);
     if (found != all.end()) at = found;
     if (!rest.missed && !holds(*at)) rest.stand.reset();
@@ -188,7 +188,8 @@ Result<Replanning::Plan> Replanning::PlanOn(const Rest& rest, double ahead_m) {
     }
   }
   auto on = network_.WayOn(from, rest.going.to);
-  if (!on && rest.missed) {  // it stands, and may be on several routes, of which it has said one
+  if (!on && rest.missed) {  // it stands, and may be on several routes, of which it has reported
+                             // one
     const auto also = network_.AlsoAt(from);
     if (!also) return tl::unexpected(also.error());
     for (std::size_t i = 0; !on && i < also->size(); ++i) {
@@ -210,8 +211,8 @@ Result<Replanning::Plan> Replanning::PlanOn(const Rest& rest, double ahead_m) {
 }
 
 Result<std::string> Replanning::Replan(const mission::Record& record, const Rest& rest) {
-  // What it drives before it can have heard of another way stays as it is; unless that leads
-  // nowhere: perhaps it does hear of it sooner.
+  // It drives on for a while before it can hear of another path, so that part stays. If it leads
+  // nowhere, the robot may still hear of the change sooner.
   const double speed_mps = rest.stand ? rest.stand->speed_mps : 0.0;
   auto plan = PlanOn(rest, speed_mps > 0.0 ? kHearsWithin_s * speed_mps + kTakesPlace_m : 0.0);
   if (plan && !plan->no_way.empty() && speed_mps > 0.0) plan = PlanOn(rest, 0.0);

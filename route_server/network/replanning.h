@@ -12,30 +12,31 @@
 
 namespace trailcast::server {
 
-// Has robots that are going to a place (mission::Going) go another way when theirs is closed, or
-// when they say that they are off it, and stand where they are and wait where there is none. It
-// plans from where a robot will be once it has heard of it; one that is on a closed part drives on
-// out of it. No clock of its own.
+// Sends robots that are on their way to a place (mission::Going) another path if theirs is closed
+// or they report that they are off it. Without a path, it makes them stop and wait. It plans from
+// where a robot will be once it has heard of it. A robot in a closed section drives on out of it.
+// It has no clock of its own.
 class Replanning {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  // Of a moving robot: how old its word on its place may be, and how long the answer takes.
+  // For a moving robot: how old its report of its place may be, and how long the answer takes.
   static constexpr double kHearsWithin_s = 1.0;
   static constexpr double kTakesPlace_m = 0.2;
-  // Further beyond where it was to leave a route it has missed that.
+  // A robot further past the place where it had to leave a route has missed it.
   static constexpr double kBeyond_m = 0.5;
   static constexpr std::chrono::seconds kAgainAfter{3};
-  // One whose place is not known yet, or that may miss where its other way begins.
+  // For a robot whose place is not known yet, or that may miss the beginning of its new path.
   static constexpr std::chrono::seconds kLookEvery{2};
 
-  // Both outlive this.
+  // Both must outlive this.
   Replanning(MissionBoard& missions, NetworkBoard& network)
       : missions_(missions), network_(network) {}
 
-  // After an edit: what becomes of each robot whose way it changes, a line each for who made it.
+  // Looks at all robots after an edit, and returns a line on each whose path changes, for the
+  // edit's author.
   [[nodiscard]] std::vector<std::string> LookAtAll(Time now);
-  // When a robot is heard of: whatever has changed since it was looked at last. A line for the log;
-  // empty: it goes on as before.
+  // Looks at a robot that was heard, for changes since the last look. Returns a line for the log,
+  // or an empty text if it goes on as before.
   [[nodiscard]] std::string Look(const AgentId& agent, Time now);
 
  private:

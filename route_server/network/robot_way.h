@@ -11,7 +11,7 @@
 
 namespace trailcast::server {
 
-// A robot's word on where it is, and where it began or was to end, are the same within this.
+// A robot's reported place and a beginning or end of its path are the same within this.
 inline constexpr double kOnWay_m = 0.5;
 
 [[nodiscard]] inline bool Holds(const network::Stretch& stretch, const network::Place& place) {
@@ -20,8 +20,8 @@ inline constexpr double kOnWay_m = 0.5;
          driven_m <= stretch.length_m() + kOnWay_m;
 }
 
-// The orders of the next way to where a robot is going, and why, as far as there is room for it.
-// Longer than exchange::kMaxLineBytes: it has more stretches than one mission holds.
+// Returns the orders for the robot's next path, with the reason as far as there is room for it. If
+// they exceed exchange::kMaxLineBytes, the path has more sections than one mission holds.
 [[nodiscard]] inline std::string NextWay(mission::Going going,
                                          const std::vector<mission::Task>& tasks,
                                          mission::Going::Why why, const std::string& because) {
