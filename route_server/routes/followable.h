@@ -4,12 +4,12 @@
 
 namespace trailcast::server {
 
-// What robots follow of a route.
+// Says whether robots follow this revision.
 [[nodiscard]] inline bool IsFollowable(const route::RouteInfo& info) {
   return info.state == route::RouteState::kComplete && info.standing == route::Standing::kActive;
 }
 
-// And what a joint may lead to or from: it has metres.
+// Says whether a junction may be on it, for which it must have metres as well.
 [[nodiscard]] inline bool IsJoinable(const route::RouteInfo& info) {
   return IsFollowable(info) && info.length_m > 0.0;
 }

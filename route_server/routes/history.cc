@@ -30,7 +30,7 @@ std::string StoredText(const RouteInfo& info) {
   return text;
 }
 
-// Which of these are not among the others; both are in rising order.
+// Returns those that are not among the others; both are in rising order.
 std::vector<std::string> Without(const std::vector<std::string>& these,
                                  const std::vector<std::string>& others) {
   std::vector<std::string> left;
@@ -39,7 +39,7 @@ std::vector<std::string> Without(const std::vector<std::string>& these,
   return left;
 }
 
-// That another one is active instead is told of that one.
+// If another revision becomes active instead, that one's change tells it.
 std::string StandingText(const RouteInfo& now) {
   switch (now.standing) {
     case Standing::kActive:
@@ -85,7 +85,7 @@ Result<std::unique_ptr<History>> History::Open(AgentId server,
   return history;
 }
 
-// When it was stored, by the clock of the server that did, tells whether that was since.
+// The time at which the server stored it tells whether that was since then.
 Result<std::vector<Change>> History::FirstSeen(const RouteInfo& info) {
   const auto teachings = routes_.FindTeachings(info.key.route);
   if (!teachings) return tl::unexpected(teachings.error());
@@ -110,12 +110,12 @@ Result<void> History::Note(std::span<const RouteInfo> infos, const std::string& 
     if (*before) {
       for (std::string& text : Differences(**before, info)) {
         Change change{now_unix_ms, by, PlainText(text, exchange::kMaxLineBytes / 2)};
-        // A name is that of all revisions.
+        // All revisions share a name, so its change is listed once.
         const bool told = std::find(changes.begin(), changes.end(), change) != changes.end();
         if (!told) changes.push_back(std::move(change));
       }
     } else if (info.standing == Standing::kDeleted) {
-      continue;  // again
+      continue;  // it is a repetition
     } else {
       auto first = FirstSeen(info);
       if (!first) return tl::unexpected(first.error());
@@ -148,7 +148,7 @@ exchange::NetworkReply History::Answer(const exchange::NetworkRequest& request,
   return reply;
 }
 
-// Before the first change stands since when they are kept.
+// The first line says since when changes are kept.
 Result<void> History::FillReply(const exchange::NetworkRequest& request, std::int64_t since_unix_ms,
                                 std::int64_t now_unix_ms, exchange::NetworkReply& reply) {
   constexpr std::size_t kPage = exchange::kMaxNetworkLines - 1;

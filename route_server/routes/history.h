@@ -13,23 +13,23 @@
 
 namespace trailcast::server {
 
-// What has changed of routes and of how they are joined, and who did it. Of a revision it tells
-// what is other than when it was noted last, so that the same news again is none. No clock of its
-// own, and no robot's.
+// Records changes of routes and of the network, with their authors. It compares a revision with
+// what was last noted, so that repeated news is none. It has no clock of its own, and uses no
+// robot's.
 class History {
  public:
-  // `routes` outlives it. Of what was there before a new file was made nothing is told.
+  // `routes` must outlive it. Nothing is recorded of what existed before a new file was made.
   [[nodiscard]] static Result<std::unique_ptr<History>> Open(
       AgentId server, std::unique_ptr<store::HistoryStore> store, store::RouteStore& routes,
       std::int64_t now_unix_ms);
 
-  // Revisions as they are. `by`: who made them so; empty: not known.
+  // Notes revisions as they are. `by` is who made them so; it is empty if that is not known.
   [[nodiscard]] Result<void> Note(std::span<const route::RouteInfo> infos, const std::string& by,
                                   std::int64_t now_unix_ms);
-  // The same of these as they are stored.
+  // Notes these as they are stored.
   [[nodiscard]] Result<void> NoteStored(std::span<const route::RouteKey> keys,
                                         const std::string& by, std::int64_t now_unix_ms);
-  // Of how routes are joined.
+  // Adds changes of the network.
   [[nodiscard]] Result<void> Add(std::span<const network::Change> changes) {
     return changes.empty() ? Result<void>() : store_->Note(changes, {});
   }

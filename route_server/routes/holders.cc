@@ -5,7 +5,7 @@
 namespace trailcast::server {
 
 void Holders::Note(const exchange::AgentStatus& status, Time now) {
-  // One that has just started has not looked yet.
+  // An agent that has just started has not looked yet.
   if (status.mode == exchange::AgentMode::kStarting) return;
   const bool is_new = held_.Find(status.agent) == nullptr;
   if (is_new && status.held.empty()) return;
@@ -21,7 +21,7 @@ void Holders::Note(const exchange::AgentStatus& status, Time now) {
 void Holders::Forget(const AgentId& agent, const Held& held) {
   for (const route::RouteKey& key : held.keys) {
     const auto holders = holders_.find(key);
-    if (holders == holders_.end()) continue;  // named twice
+    if (holders == holders_.end()) continue;  // it was named twice
     holders->second.erase(agent);
     if (holders->second.empty()) holders_.erase(holders);
   }

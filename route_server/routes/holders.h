@@ -10,17 +10,17 @@
 
 namespace trailcast::server {
 
-// Which agent said last that it holds which revisions. It still does when it is switched off or out
-// of reach, for a while; one that was not heard of for so many days is told of no longer.
+// Knows which revisions each agent holds, by its last report. An agent that is switched off or out
+// of reach still holds them for a while. One that was not heard for days is no longer listed.
 class Holders {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::hours kForgotten{3 * 24};
-  // Strangers can make up names: beyond it the one is forgotten that was not heard of for longest.
+  // Strangers can make up names, so beyond this number the one with the oldest news is forgotten.
   static constexpr std::size_t kMostAgents = 4096;
 
   void Note(const exchange::AgentStatus& status, Time now);
-  // Of the routes given, as many as a reply carries.
+  // Returns the holders of these routes, as many as a reply can have.
   [[nodiscard]] std::vector<exchange::Holding> Of(const std::vector<route::RouteInfo>& routes,
                                                   Time now) const;
 

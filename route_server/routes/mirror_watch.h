@@ -10,17 +10,17 @@
 
 namespace trailcast::server {
 
-// Whether other servers hold the same routes, in words. No clock.
+// Describes whether other servers hold the same routes. It has no clock.
 class MirrorWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  // Two servers differ for a moment with everything that is taught.
+  // Two servers differ for a moment with every segment that is taught.
   static constexpr std::chrono::seconds kMoment{15};
   static constexpr std::chrono::seconds kLong{60};
 
-  // Lines for the log, of what has changed.
+  // Returns lines for the log about changes.
   [[nodiscard]] std::vector<std::string> Look(const exchange::Mirror& mirror, Time now);
-  // Who has held other routes, or been out of reach, for long; or nothing.
+  // Returns which servers have held other routes, or been out of reach, for long, or an empty text.
   [[nodiscard]] static std::string Behind(const exchange::Mirror& mirror, Time now);
 
  private:

@@ -11,13 +11,13 @@
 
 namespace trailcast::server {
 
-// Which revisions go without anybody asking: what the policy does not keep, by ages that no clock
-// makes, and so many a day. Tells the log what waits for another day.
+// Decides which revisions the server deletes on its own: those that the policy does not keep, by
+// ages that depend on no clock, and so many a day. It logs how many wait for another day.
 class Outdated {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  // `store` outlives it.
+  // `store` must outlive it.
   Outdated(store::RouteStore& store, const catalog::RetentionPolicy& policy,
            std::unique_ptr<store::AgeStore> ages, Time now)
       : retention_(store, policy),
@@ -25,7 +25,7 @@ class Outdated {
         most_a_day_(policy.most_a_day),
         aged_at_(now) {}
 
-  // Of some routes more, as tombstones; they count as deleted.
+  // Looks at some more routes and returns tombstones, which count as deleted.
   [[nodiscard]] Result<std::vector<route::RouteInfo>> Next(Time now);
 
  private:

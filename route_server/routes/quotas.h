@@ -14,21 +14,21 @@
 
 namespace trailcast::server {
 
-// 0: as much as there is.
+// 0 means no limit.
 struct QuotaOptions {
-  std::uint32_t segments_per_s = 0;  // that an agent may have stored, or be sent
+  std::uint32_t segments_per_s = 0;  // that may be stored for, or sent to, an agent
   std::uint32_t requests_per_s = 0;  // of a member: questions, edits, missions
   std::uint64_t stored_bytes = 0;    // of the routes that a scout taught
-  std::uint32_t routes = 0;          // that a scout taught, all revisions
+  std::uint32_t routes = 0;          // that a scout taught, counting all revisions
 
   [[nodiscard]] bool any() const {
     return segments_per_s > 0 || requests_per_s > 0 || stored_bytes > 0 || routes > 0;
   }
 };
 
-// How much of a server each agent, by its name, may use. Whoever reaches a quota is told so in
-// words; what is not taken stays where it is, and is offered, or asked for, again. Errors are
-// kUnavailable with these words. No clock.
+// Limits how much of a server each agent, by its name, may use. An agent that reaches a limit is
+// told so. What is not taken stays with it, and is offered or requested again. Errors are
+// kUnavailable with the text for the agent. It has no clock.
 class Quotas {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -36,21 +36,21 @@ class Quotas {
     std::uint64_t routes = 0;
     std::uint64_t bytes = 0;
   };
-  // What is stored of a scout's routes, at present.
+  // Returns what is stored of a scout's routes at present.
   using Look = std::function<Result<Stored>(const AgentId& scout)>;
-  // So long what was looked up counts, and what was taken since.
+  // So long the result of a look, and what was taken since, count.
   static constexpr std::chrono::seconds kLookAgain{10};
   static constexpr std::size_t kMostAgents = 4096;  // strangers can make up names
 
   Quotas(const QuotaOptions& options, Look look) : options_(options), look_(std::move(look)) {}
 
-  // How many of so many segments may be taken from `agent`, or sent to it, now.
+  // Returns how many of the wanted segments may now be taken from `agent`, or sent to it.
   [[nodiscard]] std::size_t TakeSegments(const AgentId& agent, std::size_t wanted, Time now);
   [[nodiscard]] Error TooManySegments(const AgentId& agent) const;
   [[nodiscard]] Result<void> TakeRequest(const AgentId& member, Time now);
   [[nodiscard]] Result<void> TakeBytes(const AgentId& scout, std::size_t bytes, Time now);
   [[nodiscard]] bool limits_routes() const { return options_.routes > 0; }
-  // Of a route that is not stored yet.
+  // Takes a route that is not stored yet.
   [[nodiscard]] Result<void> TakeRoute(const AgentId& scout, const route::RouteKey& key, Time now);
 
  private:
@@ -63,7 +63,7 @@ class Quotas {
     Bucket segments;
     Bucket requests;
     std::optional<Time> looked_at;
-    Stored stored;                    // then, and the bytes taken since
+    Stored stored;                    // at that time, plus the bytes taken since
     std::set<route::RouteKey> begun;  // routes taken since
   };
   [[nodiscard]] Result<Account*> LookedAt(const AgentId& scout, Time now);

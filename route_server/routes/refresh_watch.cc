@@ -10,8 +10,8 @@
 namespace trailcast::server {
 
 void RefreshWatch::Note(const route::RouteInfo& info) {
-  // What an operator has done with it counts, and that one has been active before: somebody has
-  // rolled back.
+  // An operator's decision takes precedence, as does an edition above 0: the revision has been
+  // active, so somebody has rolled back.
   const bool is_new = info.state == route::RouteState::kComplete &&
                       info.standing == route::Standing::kStaged && info.edition == 0;
   const bool asks_nobody = is_new && !info.held_back();

@@ -11,27 +11,26 @@
 
 namespace trailcast::server {
 
-// Revisions by which robots refresh the one that is followed, without asking for a look at them:
-// whether they are what they say, segment by segment, and so may take its place. A small part at a
-// time.
+// Checks, segment by segment, that revisions with which robots refresh the followed one without
+// review are what they claim to be, and so may replace it. It works in small parts.
 class RefreshWatch {
  public:
-  explicit RefreshWatch(store::RouteStore& store) : store_(store) {}  // which outlives it
+  explicit RefreshWatch(store::RouteStore& store) : store_(store) {}  // `store` must outlive it
 
-  // What is known of a revision has changed.
+  // Notes that the knowledge of a revision has changed.
   void Note(const route::RouteInfo& info);
-  // At the start: those that came before the server was stopped, and refresh what is followed now.
-  // Errors are the store's.
+  // Notes, at the start, the revisions that came before the server was stopped and refresh what is
+  // followed now. Errors are the store's.
   [[nodiscard]] Result<void> NoteStored();
-  // Compares a segment. False: there is nothing to do. An error is the store's: what was compared
-  // stays as it is.
+  // Compares a segment. Returns false if there is nothing to do. An error is the store's; the
+  // compared revision stays as it is.
   [[nodiscard]] Result<bool> Step();
 
   struct Judged {
     route::RouteInfo info;
-    std::string why_not;  // one line for people; empty: robots may follow it
+    std::string why_not;  // one line for people; empty if robots may follow it
   };
-  // Since the last call.
+  // Returns those since the last call.
   [[nodiscard]] std::vector<Judged> TakeJudged() { return std::exchange(judged_, {}); }
 
  private:

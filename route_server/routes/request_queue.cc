@@ -11,8 +11,8 @@ namespace {
 using exchange::CatalogRequest;
 using exchange::Message;
 
-// A client that heard no answer asks the same again, of the catalog under a new number; anything
-// else has the number that it had.
+// A client without an answer repeats its question: to the catalog under a new number, otherwise
+// under the same.
 bool IsSameAgain(const Message& request, const Message& before) {
   const auto* query = std::get_if<CatalogRequest>(&request);
   const auto* query_before = std::get_if<CatalogRequest>(&before);

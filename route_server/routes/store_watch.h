@@ -8,20 +8,19 @@
 
 namespace trailcast::server {
 
-// Whether the store can be used, looked at now and then, so that a server which nobody asks
-// anything knows it too.
+// Checks now and then that the store can be used, so that even an idle server notices a failure.
 class StoreWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::milliseconds kLookEvery{5'000};
   static constexpr std::chrono::milliseconds kLookEveryAway{1'000};
 
-  // `store` outlives it.
+  // `store` must outlive it.
   explicit StoreWatch(store::RouteStore& store) : store_(store) {}
 
-  // Looks when that is due. A line when it went away, or is back.
+  // Checks if that is due. Returns a line if the store went away, or is back.
   [[nodiscard]] std::optional<std::string> Look(Time now);
-  // Why it cannot be used; empty: it can.
+  // Returns why it cannot be used, or an empty text.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:

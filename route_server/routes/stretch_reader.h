@@ -8,28 +8,29 @@
 
 namespace trailcast::server {
 
-// What a stored segment is. Errors are the store's; kCorrupt, too, for bytes that mean nothing.
+// Reads and decodes a stored segment. Errors are the store's, and kCorrupt for bytes that cannot be
+// decoded.
 [[nodiscard]] Result<route::Segment> ReadSegment(store::RouteStore& store,
                                                  const route::RouteKey& key, SegmentIndex index);
 
-// A revision that a joint may lead to or from (followable.h); nothing for any other.
+// Returns a revision on which a junction may be (followable.h), or nothing for any other.
 [[nodiscard]] Result<std::optional<route::RouteInfo>> FindJoinable(store::RouteStore& store,
                                                                    const route::RouteKey& key);
 
-// The key views of a stretch of a revision, read bit by bit: where it begins follows from the
-// segments before it.
+// Reads the key views of a section of a revision bit by bit. The segments before it tell where it
+// begins.
 class StretchReader {
  public:
-  static constexpr std::uint32_t kMost = 2'000;  // segments: some 10 MB of views
+  static constexpr std::uint32_t kMost = 2'000;  // segments, with some 10 MB of views
 
-  // Up to the last one that there is, and no more than so many.
+  // Ends at the last existing segment, and after kMost of them.
   StretchReader(route::RouteInfo info, SegmentIndex first, SegmentIndex last);
 
-  // Reads a segment. True: that was the last.
+  // Reads a segment; returns true if it was the last.
   [[nodiscard]] Result<bool> Step(store::RouteStore& store);
 
   [[nodiscard]] const route::RouteInfo& info() const { return info_; }
-  // Once all is read; afterwards there are none.
+  // Returns the views once everything is read, and gives them away.
   [[nodiscard]] std::shared_ptr<const joints::RouteViews> TakeViews() { return std::move(views_); }
 
  private:

@@ -11,17 +11,17 @@
 
 namespace trailcast::server {
 
-// What a server sees to in its store although nobody asks: that it is there, that complete routes
-// lack nothing, and that no segments lie about of which nothing is known. Some of it at a time.
+// Looks after the store without being asked: it checks that the store is there, that complete
+// routes lack nothing, and that there are no orphaned segments. It does a part at a time.
 class Upkeep {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  // Both outlive it.
+  // Both must outlive it.
   Upkeep(store::RouteStore& store, exchange::RouteKeeper& keeper)
       : keeper_(keeper), watch_(store), partial_(store), strays_(store) {}
 
-  // At most once a second. Tells the log.
+  // Works at most once a second, and writes to the log.
   void Tick(Time now);
   void NoteDamaged(const route::RouteKey& key, SegmentIndex segment) {
     partial_.NoteDamaged(key, segment);
@@ -30,15 +30,15 @@ class Upkeep {
     partial_.NoteStored(key, segment);
   }
 
-  // Why the store cannot be used; empty: it can.
+  // Returns why the store cannot be used, or an empty text.
   [[nodiscard]] const std::string& store_trouble() const { return watch_.trouble(); }
   [[nodiscard]] std::size_t partial_routes() const { return partial_.routes(); }
   [[nodiscard]] std::size_t lacking_segments() const { return partial_.segments(); }
-  // Of these routes those that are served in part.
+  // Returns which of these routes are served only in part.
   [[nodiscard]] std::vector<exchange::LackingSegments> LackingOf(
       const std::vector<route::RouteInfo>& routes) const;
   [[nodiscard]] std::uint64_t dropped_strays() const { return dropped_strays_; }  // segments
-  // "2 routes lack 5 segments here", or nothing.
+  // Returns "2 routes lack 5 segments here", or an empty text.
   [[nodiscard]] std::string Degraded() const;
 
  private:
@@ -51,7 +51,7 @@ class Upkeep {
   catalog::Strays strays_;
   std::uint64_t dropped_strays_ = 0;
   Time due_{};
-  std::string told_;  // what went wrong last
+  std::string told_;  // the last thing that went wrong
 };
 
 }  // namespace trailcast::server
