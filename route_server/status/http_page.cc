@@ -14,7 +14,7 @@ struct HttpPage::State {
   std::mutex mutex;  // guards the next two
   Shown shown;
   Clock::time_point shown_at = Clock::now();
-  // Few and small answers: two threads do, and one that asks slowly does not keep others waiting.
+  // Answers are few and small. With two threads, a slow client does not keep others waiting.
   http::Server server;
 
   explicit State(http::Server::Complain complain) : server({.threads = 2}, std::move(complain)) {}

@@ -9,13 +9,13 @@
 
 namespace trailcast::server {
 
-// GET /metrics and GET /health over HTTP, on a thread of its own. /health is 200 as long as Show
-// was called within `stale_after` and told of no trouble, and 503 else: a server whose loop hangs
-// is not well, nor is one that can serve nobody.
+// Serves GET /metrics and GET /health over HTTP, on a thread of its own. /health is 200 if Show was
+// called within `stale_after` and reported no trouble, and 503 otherwise, because a server whose
+// loop hangs is not well, nor is one that can serve nobody.
 class HttpPage {
  public:
-  // Port 0: any that is free; `complain`: as http::Server has it. kUnavailable when it cannot be
-  // listened on.
+  // Port 0 picks any free one; `complain` is as for http::Server. kUnavailable means that it cannot
+  // be listened on.
   [[nodiscard]] static Result<std::unique_ptr<HttpPage>> Open(
       const std::string& host, int port, std::function<void(const Error&)> complain,
       std::chrono::milliseconds stale_after = std::chrono::seconds(5));
@@ -25,10 +25,10 @@ class HttpPage {
 
   struct Shown {
     std::string metrics;
-    std::string trouble{};   // why nobody can be served; empty: they can
-    std::string degraded{};  // what is not as it should be while all are served
+    std::string trouble{};   // why nobody can be served; empty if they can
+    std::string degraded{};  // what is wrong although all are served
   };
-  // What the two say from now on. From any thread.
+  // Sets what both pages show from now on. Any thread may call it.
   void Show(Shown shown);
   [[nodiscard]] int port() const;
 

@@ -58,7 +58,7 @@ std::optional<std::string> Journal::Received(const exchange::Message& message) {
 
 std::optional<std::string> Journal::Sent(const exchange::Message& message) {
   if (const auto* receipt = std::get_if<exchange::Receipt>(&message)) return On(*receipt);
-  // What the server announces from its own store tells the journal the names.
+  // The server's announcements from its own store tell the journal the names.
   if (const auto* announcement = std::get_if<exchange::RouteAnnouncement>(&message)) {
     Known& known = KnownOf(announcement->info.key);
     known.name = announcement->info.name;
@@ -68,7 +68,7 @@ std::optional<std::string> Journal::Sent(const exchange::Message& message) {
     if (!reply->error.empty()) {
       return fmt::format("could not answer '{}': {}", reply->client.value(), reply->error);
     }
-    // A client asks anew every second until its route is there: once is enough in the log.
+    // A client asks every second until its route is there, but once is enough in the log.
     if (reply->request != 1) return std::nullopt;
     return reply->page.routes.empty()
                ? fmt::format("'{}' asks for a route that is not here", reply->client.value())
@@ -132,7 +132,7 @@ std::optional<std::string> Journal::On(const exchange::Receipt& receipt) {
   Known& known = KnownOf(receipt.key);
   const auto durable =
       receipt.durable_prefix + static_cast<std::uint32_t>(receipt.durable_beyond.size());
-  // Two hundred scouts are receipted a segment each second: of a route that grows, one line each
+  // Two hundred scouts have a segment acknowledged each second, so a growing route gets a line each
   // time that it has doubled.
   const bool complete = receipt.durable_state == route::RouteState::kComplete;
   const std::uint32_t worth_telling = complete ? known.told_durable + 1 : 2 * known.told_durable;

@@ -11,13 +11,13 @@
 
 namespace trailcast::server {
 
-// Puts the traffic of a route server into words for its log: what is new, not every message.
+// Describes the traffic of a route server for its log: news, not every message.
 class Journal {
  public:
-  // Strangers can make up names: beyond it the one is forgotten that was not heard of for longest.
+  // Strangers can make up names, so beyond this number the one with the oldest news is forgotten.
   static constexpr std::size_t kMostAgents = 4096;
 
-  // A message that came in, or one that goes out: a line, or nothing worth one.
+  // Each returns a line for a message that came in or goes out, if it is worth one.
   [[nodiscard]] std::optional<std::string> Received(const exchange::Message& message);
   [[nodiscard]] std::optional<std::string> Sent(const exchange::Message& message);
   [[nodiscard]] std::size_t agents() const { return agents_.size(); }  // present
@@ -26,7 +26,7 @@ class Journal {
   struct Known {
     std::string name;
     std::string revision;
-    std::uint32_t told_durable = 0;  // segments receipted, when that was last told
+    std::uint32_t told_durable = 0;  // acknowledged segments when that was last reported
   };
   [[nodiscard]] std::string NameOf(const route::RouteKey& key) const;
 
@@ -37,13 +37,13 @@ class Journal {
   std::optional<std::string> On(const exchange::NowCommand& command);
   std::optional<std::string> On(const exchange::NowAnswer& answer);
 
-  // Forgets all rather than hold too many: then it tells of some again.
+  // Forgets everything rather than hold too much; some lines then appear again.
   [[nodiscard]] Known& KnownOf(const route::RouteKey& key);
 
   std::map<route::RouteKey, Known> routes_;
-  // Present, with their instances.
+  // Those present, with their instances.
   NewestMap<AgentId, std::uint64_t> agents_{kMostAgents};
-  // Told: commands, by client and number, and who answered them. They are said again and again.
+  // Reported commands, by client and number, and who answered them, because they are repeated.
   using NowKey = std::pair<AgentId, std::uint64_t>;
   NewestMap<NowKey, bool> commands_{kMostAgents};
   NewestMap<std::pair<AgentId, NowKey>, bool> answers_{kMostAgents};
