@@ -23,7 +23,7 @@ Result<Findings> Read(store::RouteStore& store) {
   auto damage = store.Verify();
   if (!damage) return tl::unexpected(damage.error());
   auto lacking = store::FindLacking(store);
-  // A damaged row of a route is told of already.
+  // The damage already tells of a route's damaged row.
   if (!lacking && damage->empty()) return tl::unexpected(lacking.error());
   return Findings{std::move(*damage), lacking ? std::move(*lacking) : Findings().lacking};
 }
@@ -80,7 +80,7 @@ Result<Condition> CheckFile(const fs::path& file, bool repair) {
   return condition;
 }
 
-// Servers may be using it.
+// Servers may be using the database.
 Result<Condition> CheckDatabase(const std::string& location, bool repair) {
   const auto url = store::ParsePostgresUrl(location);
   if (!url) return tl::unexpected(url.error());

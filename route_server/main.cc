@@ -32,25 +32,25 @@ it ever confirmed to a scout. Exit status: 0 stopped by a signal, 1 failed, 2 wr
 of check: 0 the store is whole, or was made whole, 1 it is damaged, or could not be read,
 4 it is sound, or was made so, but something that it held is lost.)";
 
-constexpr int kExitIncomplete = 4;  // of check
+constexpr int kExitIncomplete = 4;  // for check
 
 struct HttpOptions {
   std::string host = "127.0.0.1";
-  int port = 0;  // 0: no page
+  int port = 0;  // 0 for no page
 };
 
 struct StoreOptions {
   std::string location;
-  std::string missions;  // empty: beside the location, if that is a file
+  std::string missions;  // if empty, it is beside the location, provided that is a file
   std::string joints;    // likewise
   std::string history;   // likewise
   bool joints_auto = false;
   std::uint64_t limit_mb = 0;
-  std::uint64_t quota_mb = 0;  // of each scout
+  std::uint64_t quota_mb = 0;  // for each scout
   std::uint32_t keep_revisions = 0;
   std::uint32_t keep_days = 0;
   std::uint32_t delete_a_day = trailcast::catalog::RetentionPolicy{}.most_a_day;
-  std::string ages;  // as missions
+  std::string ages;  // see `missions`
 };
 
 void AddStoreOptions(CLI::App& app, StoreOptions& options) {
@@ -129,7 +129,7 @@ void AddQuotaOptions(CLI::App& app, trailcast::server::QuotaOptions& options,
   app.option_defaults()->group(trailcast::program::kFirstGroup);
 }
 
-// A damaged file is served as far as it is whole.
+// The whole parts of a damaged file are served.
 trailcast::Result<std::unique_ptr<trailcast::store::RouteStore>> OpenStore(
     const StoreOptions& options) {
   auto store =
@@ -147,13 +147,15 @@ trailcast::Result<std::unique_ptr<trailcast::store::RouteStore>> OpenStore(
   return std::move(damaged->whole);
 }
 
-// A file of this server's own: `given`, or beside its routes; empty: it has none.
+// Returns the path of a file of this server's own: `given`, or one beside its routes, or an empty
+// path if it has none.
 std::string OwnFile(const StoreOptions& options, const std::string& given, const char* ending) {
   const bool beside = given.empty() && !trailcast::store::IsPostgresUrl(options.location);
   return beside ? options.location + ending : given;
 }
 
-// What such a file holds, which is said where it cannot be kept: routes are served without, too.
+// Opens such a file. If it cannot be kept, the server says what is lost, and serves routes without
+// it.
 template <typename Store>
 void Keep(const std::string& file, const char* what, trailcast::server::Server& server,
           trailcast::Result<void> (trailcast::server::Server::*keep)(std::unique_ptr<Store>)) {
@@ -163,7 +165,7 @@ void Keep(const std::string& file, const char* what, trailcast::server::Server& 
   if (!kept) spdlog::error("keeping no {}: {}", what, kept.error().message);
 }
 
-// Nothing is deleted where its age is not known.
+// Nothing is deleted whose age is not known.
 trailcast::Result<void> Retain(const StoreOptions& options, trailcast::server::Server& server) {
   const trailcast::catalog::RetentionPolicy policy{
       .keep_revisions = options.keep_revisions,
@@ -185,10 +187,9 @@ trailcast::Result<void> Retain(const StoreOptions& options, trailcast::server::S
   return {};
 }
 
-// What Cyclone receives lands in blocks of 1 MB. The C library would take the first from the system
-// and, once that is freed, all others from its heap, which they leave in pieces: it then grows with
-// each client that comes and goes, by some 9 kB, for the first thousand. A threshold that was set
-// does not move.
+// Cyclone receives into blocks of 1 MB. The C library would take the first from the system and,
+// once that is freed, all others from its heap. These fragment the heap, which then grows by some 9
+// kB with each client that comes and goes, for the first thousand. A fixed threshold does not move.
 void KeepHeapWhole() {
   constexpr int kHalfAMegabyte = 512 * 1024;
   mallopt(M_MMAP_THRESHOLD, kHalfAMegabyte);  // NOLINT(concurrency-mt-unsafe): the only thread yet

@@ -22,9 +22,9 @@ constexpr milliseconds kWait{50};
 constexpr milliseconds kWaitAnswering{1};
 constexpr milliseconds kStatusEvery{1000};
 constexpr milliseconds kMetricsEvery{1000};
-constexpr milliseconds kKeepingEvery{10'000};  // of what is learnt of the network
-constexpr milliseconds kRetentionEvery{1000};  // some routes at a time
-constexpr std::size_t kViewsASlice = 100;      // segments: about 20 ms
+constexpr milliseconds kKeepingEvery{10'000};  // for what is learnt of the network
+constexpr milliseconds kRetentionEvery{1000};  // for some routes at a time
+constexpr std::size_t kViewsASlice = 100;      // segments, which take about 20 ms
 
 exchange::AgentStatus ServerStatus(const AgentId& name) {
   exchange::AgentStatus status;
@@ -101,7 +101,7 @@ Result<void> Server::Run(const std::function<bool()>& stop) {
   return {};
 }
 
-// Before its name is claimed: who has it, and who asks for something, is heard on a network alone.
+// The name is claimed afterwards, because its owner, and requests, can only be heard on a network.
 void Server::WaitForNetwork(const std::function<bool()>& stop) {
   while (!stop() && !network_state_->trouble.empty()) {
     const auto now = steady_clock::now();
@@ -152,7 +152,7 @@ void Server::Receive(exchange::Message message) {
   const bool passed_on = PassOn(message);
   if (missions_) {
     const auto now = steady_clock::now();
-    // A stop voids the missions that were sent before it, also those that wait for their turn.
+    // A stop voids the missions that were sent before it, including those that wait for their turn.
     if (std::holds_alternative<exchange::NowCommand>(message)) {
       missions_->Take(requests_.TakeMissions(), now, NowUnixMs());
     }
@@ -174,7 +174,7 @@ void Server::Receive(exchange::Message message) {
   }
   if (const auto* announced = std::get_if<exchange::RouteAnnouncement>(&message)) {
     NoteViews(*announced);
-    // Another server may have changed it in the store that both share.
+    // Another server may have changed it in a shared store.
     if (network_ && store_->shared()) NoteOfNetwork(announced->info);
   }
   mirror_.Handle(message, steady_clock::now());
@@ -185,13 +185,13 @@ void Server::Receive(exchange::Message message) {
   }
 }
 
-// At once, whatever else there is to do. True: it was such a message.
+// This happens at once, before any other work. Returns true for such a message.
 bool Server::PassOn(const exchange::Message& message) {
   const auto pass = [this](auto copy) {
-    if (copy.relayed) return;  // by another server
+    if (copy.relayed) return;  // another server has passed it on
     if (const auto line = journal_.Received(copy)) spdlog::info("{}", *line);
     copy.relayed = true;
-    // What cannot be handed over now is said again by whoever said it.
+    // A message that cannot be sent now is repeated by its author.
     (void)exchange_->Publish(copy);
   };
   if (const auto* command = std::get_if<exchange::NowCommand>(&message)) {
@@ -204,7 +204,7 @@ bool Server::PassOn(const exchange::Message& message) {
   return true;
 }
 
-// Another server may have put it into the store that both share.
+// Another server may have put it into a shared store.
 void Server::NoteViews(const exchange::RouteAnnouncement& announcement) {
   const bool scouts = announcement.holder == announcement.info.scout;
   if (scouts || announcement.info.standing == route::Standing::kDeleted) return;
@@ -283,7 +283,7 @@ void Server::TellTroubles() {
   }
 }
 
-// What agents that hear nobody else need to know of each other.
+// Tells agents that hear nobody else what they need to know of each other.
 void Server::TellAgents() {
   const auto now = steady_clock::now();
   std::vector<exchange::Message> told;
@@ -291,21 +291,21 @@ void Server::TellAgents() {
   for (exchange::RouteFollowers& followers : followers_.Due(now)) {
     told.emplace_back(std::move(followers));
   }
-  // What cannot be handed over is told anew soon.
+  // What cannot be sent is soon repeated.
   (void)exchange::PublishAll(*exchange_, told);
   for (const std::string& note : fleet_.TakeNotes()) spdlog::warn("{}", note);
 }
 
 void Server::TellMissions() {
   if (!missions_) return;
-  // What cannot be handed over is asked for, or said, again.
+  // What cannot be sent is requested, or sent, again.
   (void)exchange::PublishAll(*exchange_, missions_->Tick(steady_clock::now(), NowUnixMs()));
   for (const MissionBoard::Note& note : missions_->TakeNotes()) {
     spdlog::log(note.warning ? spdlog::level::warn : spdlog::level::info, "{}", note.text);
   }
 }
 
-// What was appended is on the disk, and what was announced as deleted is not.
+// Segments that were appended are on the disk, and routes announced as deleted are not.
 void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
   for (const route::SegmentPiece& piece : keeper_->TakeAppended()) {
     if (const auto added = views_.Add(piece); !added) {
@@ -364,7 +364,7 @@ std::string Server::Degraded() const {
   };
   add("nothing that scouts send is stored", keeper_->untaken());
   if (missions_) add("no news of missions are stored", missions_->untaken());
-  // Whoever shares the store holds the same by that.
+  // Servers that share a store hold the same routes.
   if (!store_->shared()) add("not mirrored", MirrorWatch::Behind(mirror_, steady_clock::now()));
   return degraded;
 }

@@ -35,38 +35,40 @@
 
 namespace trailcast::server {
 
-// Keeps the routes of a swarm: stores what scouts send, confirms it once it is on disk, answers the
-// catalog and whoever lacks segments. One thread, the caller's.
+// Keeps the routes of a swarm. It stores scouts' segments, acknowledges them once they are on disk,
+// answers questions to the catalog, and sends segments to those that lack them. It runs on the
+// caller's thread.
 class Server {
  public:
-  // Loads what the store holds. Errors name the store.
+  // Loads the store. Errors name it.
   [[nodiscard]] static Result<std::unique_ptr<Server>> Open(
       const AgentId& name, std::unique_ptr<store::RouteStore> store,
       std::unique_ptr<exchange::RouteExchange> exchange);
 
-  // Deletes what the policy does not keep, from now on, by `ages`.
+  // Deletes, from now on, what the policy does not keep, by `ages`.
   void Retain(const catalog::RetentionPolicy& policy, std::unique_ptr<store::AgeStore> ages) {
     outdated_.emplace(*store_, policy, std::move(ages), std::chrono::steady_clock::now());
   }
-  // Nobody may use more than this, from now on.
+  // Limits, from now on, what each member may use.
   void Limit(const QuotaOptions& options);
-  // Keeps what robots are sent to do, from now on; without, that is not this server's.
+  // Keeps missions from now on. Without it, this server does not handle them.
   [[nodiscard]] Result<void> KeepMissions(std::unique_ptr<store::MissionStore> store);
-  // Keeps how routes are joined, likewise.
+  // Keeps the network likewise.
   [[nodiscard]] Result<void> KeepNetwork(std::unique_ptr<store::NetworkStore> store);
-  // Keeps what was changed of both, likewise.
+  // Keeps the changes of both likewise.
   [[nodiscard]] Result<void> KeepHistory(std::unique_ptr<store::HistoryStore> store);
-  // Makes joints of sure proposals without asking an operator.
+  // Turns sure proposals into junctions without asking an operator.
   void TakeSureJoints() { takes_sure_joints_ = true; }
-  // How `exchange` is on its network, from now on; without, it is taken to be there.
+  // Watches the state of the exchange's network from now on. Without it, the network is assumed to
+  // be up.
   void Mind(std::shared_ptr<const exchange::NetworkState> network) {
     network_state_ = std::move(network);
   }
   // Keeps /metrics and /health up to date from now on.
   void ShowOn(std::unique_ptr<HttpPage> page) { page_ = std::move(page); }
 
-  // Claims the name, then serves until `stop` says so. kConflict when another running process has
-  // the name.
+  // Claims the name, then serves until `stop` returns true. kConflict means that another running
+  // process has the name.
   [[nodiscard]] Result<void> Run(const std::function<bool()>& stop);
 
  private:
@@ -75,13 +77,13 @@ class Server {
 
   void WaitForNetwork(const std::function<bool()>& stop);
   void Receive(exchange::Message message);
-  // Whether it waits for its turn, and counts among what its member may ask.
+  // Says whether a message waits for its turn, and counts as one of its member's requests.
   [[nodiscard]] bool IsRequest(const exchange::Message& message) const;
   void ReceiveRequest(const exchange::Message& request);
-  // What operators tell robots, and these answer, who may not hear each other.
+  // Passes on operators' commands and robots' answers, because they may not hear each other.
   [[nodiscard]] bool PassOn(const exchange::Message& message);
   [[nodiscard]] Result<void> Enqueue(const exchange::Message& request);
-  // Of a message what its sender's quotas allow; nothing if that is nothing.
+  // Returns the part of a message that its sender's quotas allow, or nothing.
   [[nodiscard]] std::optional<exchange::Message> WithinQuotas(const exchange::Message& message);
   [[nodiscard]] exchange::SegmentBatch WithinQuotas(const exchange::SegmentBatch& batch);
   [[nodiscard]] Result<void> RouteWithinQuotas(const AgentId& scout, const route::RouteKey& key);
@@ -90,7 +92,7 @@ class Server {
   [[nodiscard]] std::chrono::milliseconds WaitForMessages() const;
   void ServeRequests();
   void Serve(const exchange::Message& request);
-  // Hands over what is due, and returns it.
+  // Publishes what is due, and returns it.
   [[nodiscard]] std::vector<exchange::Message> Say(std::chrono::steady_clock::time_point now);
   void TellTroubles();
   [[nodiscard]] exchange::CatalogReply AnswerCatalog(const AgentId& name,
@@ -101,8 +103,8 @@ class Server {
   void KeepWays();
   void NoteViews(const exchange::RouteAnnouncement& announcement);
   void FillViews(const std::vector<exchange::Message>& outgoing);
-  // For the history: what is announced; what was planned to be changed, before and after it is;
-  // and of how routes are joined.
+  // These feed the history: with announcements, with planned changes before and after they are
+  // made, and with changes of the network.
   void NoteAnnounced(const std::vector<exchange::Message>& outgoing);
   void NotePlanned(std::span<const route::RouteInfo> planned);
   void NoteDone(const std::string& by);
@@ -115,9 +117,9 @@ class Server {
   void Propose(const Meeting& meeting);
   void Tell(const Crossing& crossing, std::chrono::steady_clock::time_point now);
   void DeleteOutdated();
-  // What is not as it should be while all are served, or nothing.
+  // Returns what is wrong although everybody is served, or an empty text.
   [[nodiscard]] std::string Degraded() const;
-  // Why nobody can be served, or nothing.
+  // Returns why nobody can be served, or an empty text.
   [[nodiscard]] std::string Trouble() const;
   void ShowMetricsIfDue(std::chrono::steady_clock::time_point now);
   void ShowWhatItDoes();
@@ -135,28 +137,28 @@ class Server {
   program::Presence presence_;
   Journal journal_;
   Holders holders_;
-  std::optional<Quotas> quotas_;  // none: everybody may use what there is
+  std::optional<Quotas> quotas_;  // without it there are no limits
   RequestQueue requests_;
   std::vector<exchange::Message> replies_;  // to requests that the keeper does not answer
   FleetNews fleet_;
   RouteFollowersBoard followers_;
-  std::unique_ptr<MissionBoard> missions_;  // none: it keeps none
+  std::unique_ptr<MissionBoard> missions_;  // null if it keeps none
   std::unique_ptr<NetworkBoard> network_;   // likewise
   std::unique_ptr<JointDesk> joints_;       // for that
   bool takes_sure_joints_ = false;
   RefreshWatch refreshes_;
-  std::uint64_t refresh_request_;                        // of the next edit that it asks for itself
-  std::unique_ptr<History> history_;                     // none: it keeps none
+  std::uint64_t refresh_request_;                        // of the server's own next edit
+  std::unique_ptr<History> history_;                     // null if it keeps none
   std::vector<route::RouteKey> planned_;                 // to be changed
-  std::chrono::steady_clock::time_point keeping_due_{};  // of what is learnt of the network
-  std::optional<Replanning> replanning_;                 // with both
+  std::chrono::steady_clock::time_point keeping_due_{};  // for what is learnt of the network
+  std::optional<Replanning> replanning_;                 // with missions and network
   std::optional<LaneKeeper> lanes_;                      // likewise
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store
   Metrics metrics_;
-  std::unique_ptr<HttpPage> page_;  // none: nobody asked for one
+  std::unique_ptr<HttpPage> page_;  // null if nobody asked for one
   std::chrono::steady_clock::time_point metrics_due_{};
-  std::optional<Outdated> outdated_;  // none: everything is kept
+  std::optional<Outdated> outdated_;  // without it everything is kept
   std::chrono::steady_clock::time_point retention_due_{};
   std::chrono::steady_clock::time_point tell_held_back_at_{};
 };

@@ -1,4 +1,4 @@
-// What a server keeps of what was changed.
+// This part of the server records changes.
 #include <spdlog/spdlog.h>
 
 #include "route_server/server.h"
@@ -30,7 +30,7 @@ void Server::NoteAnnounced(const std::vector<exchange::Message>& outgoing) {
   Warn(history_->Note(infos, "", NowUnixMs()));
 }
 
-// As it is before, so that what an edit has changed can be told.
+// Notes the state before an edit, so that its changes can be told.
 void Server::NotePlanned(std::span<const route::RouteInfo> planned) {
   planned_.clear();
   for (const route::RouteInfo& info : planned) planned_.push_back(info.key);

@@ -1,4 +1,4 @@
-// Where routes meet that this server has.
+// This part of the server handles meetings of its routes.
 #include <spdlog/spdlog.h>
 
 #include "route_server/server.h"
@@ -27,7 +27,8 @@ void Server::KeepLookingForJoints(std::chrono::steady_clock::time_point now) {
   }
 }
 
-// A commit of each would hold up receipts where many are searched, and many robots follow.
+// Commits are collected, because one for each would delay acknowledgements while many routes are
+// searched and many robots follow.
 void Server::KeepWhatIsLearnt() {
   if (!network_) return;
   if (const auto saved = network_->SaveSearched(); !saved) {

@@ -1,4 +1,4 @@
-// What a server takes of whom, and sends to whom.
+// This part of the server limits what it takes from members and sends to them.
 #include <map>
 
 #include "route_server/server.h"
@@ -27,7 +27,7 @@ Result<Quotas::Stored> Server::LookUp(const AgentId& scout) {
 std::optional<exchange::Message> Server::WithinQuotas(const exchange::Message& message) {
   const auto now = steady_clock::now();
   if (const auto* batch = std::get_if<exchange::SegmentBatch>(&message)) {
-    // What other servers send was asked of them.
+    // Segments from other servers were requested.
     if (presence_.servers().contains(batch->sender)) return message;
     exchange::SegmentBatch allowed = WithinQuotas(*batch);
     if (allowed.pieces.empty()) return std::nullopt;

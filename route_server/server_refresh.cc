@@ -1,4 +1,4 @@
-// Revisions by which robots refresh the one that is followed.
+// This part of the server handles revisions with which robots refresh the followed one.
 #include <spdlog/spdlog.h>
 
 #include "route_server/server.h"
@@ -7,7 +7,7 @@
 namespace trailcast::server {
 namespace {
 
-// Of each round of the server.
+// In each round of the server.
 constexpr std::chrono::milliseconds kTurn{3};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The server handles here what members of the fleet ask, want changed, and send robots to do.
+// This part of the server handles members' questions, edits and missions.
 #include "route_server/server.h"
 #include "services/base/unix_time.h"
 #include "services/catalog/catalog.h"
@@ -10,9 +10,9 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// All else waits for so long, and for the request that is being answered then.
+// Everything else waits for so long, and for the request that is being answered then.
 constexpr milliseconds kRequestsASlice{20};
-// One commit holds so many missions at most, so that it is no longer than a slice either.
+// A commit has at most so many missions, so that it is no longer than a slice either.
 constexpr std::size_t kMostMissionsACommit = 64;
 
 exchange::Message Refusal(const exchange::Message& request, const AgentId& self,
@@ -42,8 +42,8 @@ exchange::Message Refusal(const exchange::Message& request, const AgentId& self,
 
 }  // namespace
 
-// Missions that another server passes on are kept by that one, and one that keeps none leaves them
-// to the others.
+// A mission that another server passes on is kept by that one. A server that keeps none leaves
+// missions to the others.
 bool Server::IsRequest(const exchange::Message& message) const {
   if (const auto* mission = std::get_if<mission::Mission>(&message)) {
     return missions_ && !mission->relayed;
@@ -55,7 +55,7 @@ bool Server::IsRequest(const exchange::Message& message) const {
          std::holds_alternative<exchange::MissionRequest>(message);
 }
 
-// Who asks wrongly is told so at once: it costs nothing, and what waits is small.
+// A wrong request is refused at once, which costs nothing and keeps the queue small.
 void Server::ReceiveRequest(const exchange::Message& request) {
   const auto* mission = std::get_if<mission::Mission>(&request);
   if (mission != nullptr && missions_->Refuses(*mission)) return;
@@ -85,7 +85,8 @@ Result<void> Server::Enqueue(const exchange::Message& request) {
   return added;
 }
 
-// Serves at least one, and no more than fit into the slice. It stores missions with one commit.
+// Serves at least one request, and no more than fit into the slice. It stores missions in one
+// commit.
 void Server::ServeRequests() {
   const auto until = steady_clock::now() + kRequestsASlice;
   std::vector<mission::Mission> missions;
