@@ -15,7 +15,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// A robot that has not answered is told again after the first time, later after the second.
+// A robot that has not answered is told again after the first pause, and later after ever longer
+// ones up to the second.
 constexpr milliseconds kSoon{1000};
 constexpr milliseconds kLate{30'000};
 constexpr milliseconds kExpireEvery{1000};
@@ -55,7 +56,7 @@ std::uint32_t UnendedStates() {
   return states;
 }
 
-// A server's own word.
+// Makes a report by the server itself.
 mission::Report OwnReport(const mission::Mission& mission, mission::State state,
                           const std::string& why) {
   return {.agent = mission.agent,
