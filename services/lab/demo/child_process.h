@@ -20,19 +20,20 @@ struct ExitStatus {
 };
 [[nodiscard]] std::string ToString(const ExitStatus& status);
 
-// A process of ours: ended when this object goes, and by the kernel when our own process dies in
-// whatever way. Has a process group of its own, so that Ctrl-C reaches us alone and we end it in
-// order. Start from the main thread: the kernel watches the thread that started it.
+// A child process. It is ended when this object goes and, by the kernel, when our own process dies
+// in any way. It has a process group of its own, so that Ctrl-C reaches only us and we end it in
+// order. It must be started from the main thread, because the kernel watches the thread that
+// started it.
 class ChildProcess {
  public:
-  // argv[0] is the program's path. stdout and stderr go to `log`, stdin is empty.
+  // Starts a program; argv[0] is its path. stdout and stderr go to `log`, and stdin is empty.
   [[nodiscard]] static Result<ChildProcess> Start(const std::vector<std::string>& argv,
                                                   const std::filesystem::path& log);
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&& other) noexcept;
   ~ChildProcess();
 
-  // How it ended, or nothing while it runs. Does not wait.
+  // Returns how it ended, or nothing while it runs, without waiting.
   [[nodiscard]] std::optional<ExitStatus> Poll();
   // Asks it to end.
   void Terminate();
@@ -44,12 +45,12 @@ class ChildProcess {
  private:
   ChildProcess(pid_t pid, std::filesystem::path log) : pid_(pid), log_(std::move(log)) {}
 
-  pid_t pid_ = -1;  // -1: moved from
+  pid_t pid_ = -1;  // -1 after a move
   std::optional<ExitStatus> status_;
   std::filesystem::path log_;
 };
 
-// The last `count` lines of a text file; empty if there is none.
+// Returns the last `count` lines of a text file, or none if there is no file.
 [[nodiscard]] std::vector<std::string> LastLines(const std::filesystem::path& file,
                                                  std::size_t count);
 

@@ -9,15 +9,15 @@
 
 namespace trailcast::demo {
 
-// The operator of `trailcast demo --console`: sends all robots on duty but the last along the
-// scout's route, as soon as there is enough of it; the last is left to who looks on. No I/O, no
-// clock.
+// The operator of `trailcast demo --console`. It sends all robots that wait for missions, except
+// the last one, along the scout's route as soon as there is enough of it; the last one is left to
+// the viewer. It has no I/O and no clock.
 class DemoDispatch {
  public:
   DemoDispatch(const AgentId& self, const std::vector<DemoRobot>& robots);
 
   void Hear(const std::vector<exchange::Message>& messages);
-  // What is to be published now.
+  // Returns the messages to publish now.
   [[nodiscard]] std::vector<exchange::Message> Due(std::chrono::steady_clock::time_point now);
 
  private:

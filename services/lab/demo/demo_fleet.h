@@ -13,16 +13,16 @@
 
 namespace trailcast::demo {
 
-// The demo's processes: one route server, the robots' agents, and a console where one is started.
-// All are ended, and waited for, when this goes.
+// The demo's processes: one route server, the robots' agents, and a console if one is started. The
+// destructor ends all of them and waits for that.
 class DemoFleet {
  public:
-  // Starts trailcast-server and a trailcast-agent for each robot; both programs lie in `programs`.
+  // Starts trailcast-server, and a trailcast-agent for each robot; both programs are in `programs`.
   [[nodiscard]] static Result<DemoFleet> Start(const std::filesystem::path& programs,
                                                const std::filesystem::path& folder,
                                                const std::vector<DemoRobot>& robots,
                                                const program::CommonOptions& network);
-  // Besides them a trailcast-console; port 0: any that is free.
+  // Starts a trailcast-console as well; port 0 picks any free one.
   [[nodiscard]] Result<void> StartConsole(const std::filesystem::path& programs,
                                           const std::filesystem::path& folder,
                                           const program::CommonOptions& network, int port);
@@ -30,24 +30,24 @@ class DemoFleet {
   DemoFleet(DemoFleet&&) noexcept = default;
   DemoFleet& operator=(DemoFleet&&) noexcept = default;
 
-  // All robots' processes have ended.
+  // Says whether all robots' processes have ended.
   [[nodiscard]] bool RobotsEnded();
-  // How robot `index` of `robots` ended, or nothing while it runs.
+  // Returns how robot `index` of `robots` ended, or nothing while it runs.
   [[nodiscard]] std::optional<ExitStatus> RobotStatus(std::size_t index);
-  // Where the console is to be found, once it is.
+  // Returns the console's address once it has one.
   [[nodiscard]] std::optional<std::string> ConsoleAddress() const;
-  // What makes going on pointless: server or console have ended, or a scout did without teaching.
-  // With the last lines of its log.
+  // Returns what makes it pointless to go on, with the last lines of the log: the server or the
+  // console has ended, or a scout has without teaching.
   [[nodiscard]] std::optional<std::string> Broken();
   [[nodiscard]] std::vector<std::string> RobotLog(std::size_t index, std::size_t lines) const;
 
-  // Asks all to end, then sees to it.
+  // Asks all processes to end, and then makes sure that they do.
   void Stop();
 
  private:
   DemoFleet() = default;
 
-  std::vector<ChildProcess> server_;   // one
+  std::vector<ChildProcess> server_;   // exactly one
   std::vector<ChildProcess> console_;  // at most one
   std::vector<ChildProcess> robots_;   // scouts first
   std::size_t scouts_ = 0;

@@ -13,7 +13,7 @@
 
 namespace trailcast::demo {
 
-// A simulated robot's true positions, as its process wrote them: `t_s,x_m,y_m,heading_rad`.
+// A simulated robot's true positions as its process wrote them: `t_s,x_m,y_m,heading_rad`.
 struct TruthFile {
   std::vector<Eigen::Vector2d> positions_m;
   double duration_s = 0.0;
@@ -25,12 +25,13 @@ struct TruthFile {
 [[nodiscard]] Result<std::map<std::string, std::string>> ReadReport(
     const std::filesystem::path& file);
 
-// How one robot of the demo fared.
+// The result of one robot of the demo.
 struct DemoRow {
   DemoRobot robot;
-  bool arrived = false;        // by its own word and by the truth; the scout: taught and delivered
+  bool arrived = false;        // by its own report and by the truth; a scout has taught and
+                               // delivered its route
   std::string why_not;         // one line
-  trial::PathVerdict verdict;  // followers
+  trial::PathVerdict verdict;  // for followers
   std::string found_share;
   std::string segments;
   std::string bytes_per_m;
@@ -38,13 +39,14 @@ struct DemoRow {
   trial::TruePath path;
 };
 
-// Reads what the processes left. `ended` says how each of them did, in the order of `robots`; the
-// scout is the first. A robot whose files are missing has not arrived, and its row says so.
+// Reads the files that the processes left. `ended` tells how each of them ended, in the order of
+// `robots`, of which the scout is the first. A robot whose files are missing has not arrived, and
+// its row says so.
 [[nodiscard]] std::vector<DemoRow> JudgeDemo(const std::vector<DemoRobot>& robots,
                                              const std::vector<std::optional<ExitStatus>>& ended);
 
 [[nodiscard]] std::string DemoTable(const std::vector<DemoRow>& rows);
-// The paths, the taught one first.
+// Returns the paths, the taught one first.
 [[nodiscard]] std::vector<plot::PlottedPath> DemoPaths(const std::vector<DemoRow>& rows);
 
 }  // namespace trailcast::demo

@@ -8,21 +8,22 @@
 
 namespace trailcast::demo {
 
-// What an operator knows of a fleet, from the statuses that its agents publish.
+// An operator's knowledge of a fleet, from the statuses that its agents publish.
 class FleetView {
  public:
-  // Takes what concerns the fleet out of a message; all else is ignored. An agent that has gone
-  // keeps its last status: what it ended with is what one wants to see.
+  // Takes the messages that concern the fleet and ignores the others. An agent that has gone keeps
+  // its last status, because its end is of interest.
   void Handle(const exchange::Message& message);
 
-  // Null for an agent never heard of.
+  // Returns null for an agent that was never heard.
   [[nodiscard]] const exchange::AgentStatus* Find(const AgentId& agent) const;
 
  private:
   std::map<AgentId, exchange::AgentStatus> agents_;
 };
 
-// One line: name, camera, a bar, what it does. `status` may be null: nothing heard yet.
+// Returns one line with name, camera, a bar, and what it does. `status` is null if nothing was
+// heard yet.
 [[nodiscard]] std::string StatusLine(const std::string& name, const std::string& camera,
                                      const exchange::AgentStatus* status);
 

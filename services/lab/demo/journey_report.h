@@ -12,27 +12,28 @@
 
 namespace trailcast::demo {
 
-// A journey ended like this by its robot's own word.
+// The end of a journey by its robot's own report.
 struct JourneyEnd {
-  std::string said;                     // what `send` said of it last, for people
-  std::optional<mission::Report> last;  // none was heard: it was not sent
+  std::string said;                     // the last line of `send`, for people
+  std::optional<mission::Report> last;  // nothing if none was heard, because it was not sent
 };
 
-// How a robot fared that was sent over the network of routes.
+// The result of a robot that was sent over the network.
 struct JourneyRow {
   DemoRobot robot;
   std::string from;         // where it stood
-  std::string said;         // what `send` said of it last
-  bool arrived = false;     // by its own word and by the truth
-  bool gave_up = false;     // or waits where no way leads on; by its own word, which says why
-  double goal_m = 0.0;      // from where it was sent
-  double beside_m = 0.0;    // at most, from the nearest taught path, before it was carried off
-  bool trespassed = false;  // on what is closed
-  // What it drove: two of them if it was carried off in between.
+  std::string said;         // the last line of `send`
+  bool arrived = false;     // by its own report and by the truth
+  bool gave_up = false;     // or waits where no path leads on; its report says why
+  double goal_m = 0.0;      // distance from its destination
+  double beside_m = 0.0;    // largest distance from the nearest taught path, before it was carried
+                            // off
+  bool trespassed = false;  // in the closed section
+  // The paths that it drove; there are two if it was carried off in between.
   std::vector<trial::TruePath> legs{};
 
   [[nodiscard]] bool carried() const { return legs.size() > 1; }
-  // It did what it was to do: who was carried off may give up, too.
+  // Says whether it did its task. A robot that was carried off may also give up.
   [[nodiscard]] bool well() const {
     return !trespassed && carried() == !robot.carry.empty() && (arrived || (carried() && gave_up));
   }
@@ -44,13 +45,13 @@ struct JourneyReport {
   [[nodiscard]] bool AllWell() const;
 };
 
-// Reads what the processes left. `ends`: of each journey. Errors: what a scout drove cannot be
-// read, or does not reach the goal.
+// Reads the files that the processes left. `ends` has one for each journey. Error: a scout's path
+// cannot be read, or does not reach the destination.
 [[nodiscard]] Result<JourneyReport> JudgeJourneys(const NetworkPlan& plan,
                                                   const std::vector<JourneyEnd>& ends);
 
 [[nodiscard]] std::string JourneyTable(const JourneyReport& report);
-// The taught paths first.
+// Returns the paths, the taught ones first.
 [[nodiscard]] std::vector<plot::PlottedPath> JourneyPaths(const NetworkPlan& plan,
                                                           const JourneyReport& report);
 

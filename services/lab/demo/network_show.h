@@ -16,38 +16,37 @@
 
 namespace trailcast::demo {
 
-// The operator of `trailcast demo --network`: joins what the scouts have taught, sends all robots
-// to one place, and closes a part of the way while they drive. By the commands that one types, each
-// a process of its own.
+// The operator of `trailcast demo --network`. It joins the scouts' routes, sends all robots to one
+// place, and closes a section of the path while they drive. It uses the commands that people type,
+// each in a process of its own.
 class NetworkShow {
  public:
   using Time = std::chrono::steady_clock::time_point;
   NetworkShow(std::filesystem::path programs, std::filesystem::path folder,
               const program::CommonOptions& network, const NetworkPlan& plan);
 
-  // Takes in whatever is heard. The main thread calls this, as all of this class.
+  // Takes all messages. The main thread makes all calls of this class.
   void Hear(const std::vector<exchange::Message>& messages);
-  // As far as it can go now; from the main thread. An error: a command that failed, and what it
-  // said.
+  // Goes as far as it can now. An error is a command that failed, with its message.
   [[nodiscard]] Result<void> Step(const FleetView& view, Time now);
-  // All robots' journeys have ended, one way or another.
+  // Says whether all robots' journeys have ended, in whatever way.
   [[nodiscard]] bool over() const { return stage_ == Stage::kOver; }
-  // What was typed, each with the line it was answered with last.
+  // Returns the commands, each with the last line of its answer.
   [[nodiscard]] const std::vector<std::string>& typed() const { return typed_; }
-  // Tells how each journey ended, in the plan's order.
+  // Returns how each journey ended, in the plan's order.
   [[nodiscard]] std::vector<JourneyEnd> Ends() const;
 
  private:
   enum class Stage { kTaught, kProposals, kJoin, kSend, kClose, kWait, kOver };
 
   [[nodiscard]] Result<ChildProcess> Type(const std::vector<std::string>& words, bool shown);
-  // Whether the command that is running has ended well; an error if it has ended otherwise.
+  // Says whether the running command has ended well; it is an error if it has ended otherwise.
   [[nodiscard]] Result<bool> Done();
   void TakeAnswer(Time now);
   [[nodiscard]] Result<void> TypeNext();
   [[nodiscard]] Result<void> SendAll();
   [[nodiscard]] bool AllTaught(const FleetView& view) const;
-  // Who was carried to where no way leads on may wait for one.
+  // A robot that was carried to a place without a path may wait for one.
   [[nodiscard]] bool AllEnded(Time now);
   [[nodiscard]] std::optional<mission::Report> ReportOf(std::size_t journey) const;
 
@@ -59,7 +58,7 @@ class NetworkShow {
   std::vector<std::vector<std::string>> to_type_;  // one after the other
   std::optional<ChildProcess> running_;
   std::vector<ChildProcess> sends_;
-  std::map<AgentId, mission::Report> reports_;  // the last of each robot
+  std::map<AgentId, mission::Report> reports_;  // each robot's last one
   std::vector<std::string> typed_;
   Time proposals_until_{};
   std::optional<Time> waits_since_{};

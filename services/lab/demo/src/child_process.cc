@@ -21,7 +21,7 @@ constexpr auto kPollInterval = std::chrono::milliseconds(10);
 constexpr auto kKillOnDestruction = std::chrono::milliseconds(3000);
 constexpr int kExecFailed = 127;
 
-// In the child, between fork and exec: only async-signal-safe calls.
+// Runs in the child, between fork and exec, where only async-signal-safe calls are allowed.
 [[noreturn]] void Become(char* const* argv, int log, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -69,7 +69,7 @@ Result<ChildProcess> ChildProcess::Start(const std::vector<std::string>& argv,
   if (pid < 0) {
     return Fail(ErrorCode::kUnavailable, "cannot start {}: {}", argv.front(), SystemMessage(error));
   }
-  setpgid(pid, pid);  // as the child does itself: whoever comes first
+  setpgid(pid, pid);  // the child does so itself; whichever comes first counts
   return ChildProcess(pid, log);
 }
 

@@ -13,7 +13,7 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kAgain{500};
-// Taught by then, which is enough to set out: the rest is taught meanwhile.
+// This much of the route is enough to set out, because the rest is taught meanwhile.
 constexpr std::uint32_t kSegments = 2;
 constexpr int kLaps = 20;
 

@@ -11,9 +11,9 @@ namespace {
 
 constexpr auto kEndBound = std::chrono::milliseconds(5000);
 constexpr std::size_t kLogLines = 8;
-constexpr const char* kLogs = "logs";  // of what robots on duty follow
-// A follower waits for the route from the moment it starts until the scout has driven two metres;
-// one on duty may be faster than the scout that teaches it.
+constexpr const char* kLogs = "logs";  // for the robots that are sent on missions
+// A follower waits for the route from its start until the scout has driven two metres. A robot on a
+// mission may be faster than the scout that teaches its route.
 constexpr const char* kWait_s = "120";
 
 std::vector<std::string> AgentWords(const std::string& program, const DemoRobot& robot,
@@ -42,7 +42,7 @@ std::vector<std::string> AgentWords(const std::string& program, const DemoRobot&
        "--sim-truth", robot.truth.string()});
   if (!robot.path.empty()) add({"--path", robot.path.string()});
   if (!robot.carry.empty()) add({"--sim-carry", robot.carry});
-  // Each of them has the laboratory to itself: nobody is in anybody's way.
+  // Each of them has the laboratory to itself, so nobody is in anybody's way.
   if (robot.task != Task::kTeach) add({"--wait", kWait_s, "--keep-distance", "0"});
   return words;
 }
@@ -102,7 +102,7 @@ Result<void> DemoFleet::StartConsole(const std::filesystem::path& programs,
   if (failed) return Fail(ErrorCode::kUnavailable, "cannot make {}", (folder / kLogs).string());
   std::vector<std::string> words{(programs / "trailcast-console").string()};
   program::CommonOptions everybody = network;
-  everybody.discovery = "mesh";  // as is usual for it
+  everybody.discovery = "mesh";  // the console's usual mode
   for (std::string& word : NetworkWords(everybody, "console")) words.push_back(std::move(word));
   words.insert(words.end(),
                {"--http-port", std::to_string(port), "--logs", (folder / kLogs).string(),

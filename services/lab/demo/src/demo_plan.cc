@@ -11,21 +11,23 @@
 namespace trailcast::demo {
 namespace {
 
-// From one room to the other and back, turned on the spot at both ends.
+// The path goes from one room to the other and back, with a turn on the spot at both ends.
 constexpr const char* kRound =
     "x_m,y_m\n2.6,1.5\n6,1.5\n7.2,3.2\n7.2,5.6\n7.2,3.2\n6,1.5\n2,1.5\n2.6,1.5\n";
 
-// The scout's make of camera, on another robot: higher up, and looking a little aside and up.
+// This is the scout's kind of camera on another robot: higher up, and looking a little aside and
+// up.
 constexpr const char* kOtherMount = "webcam+height_m=0.42+yaw_deg=2+pitch_deg=2";
 
-// Three ways through the laboratory that come together before the doorway: the first from the west;
-// the second beside it at first, and then round by the east; the third from the east.
+// The paths of three scouts through the laboratory, which come together before the doorway: the
+// first comes from the west; the second begins beside it and then goes round by the east; the third
+// comes from the east.
 struct TaughtWay {
   const char* route;
   const char* path;
   const char* camera;
   const char* camera_word;
-  // Where robots may stand: straight ahead of the first way-point, so many metres.
+  // Robots may stand on these metres straight ahead of the first way-point.
   double x_m, y_m, towards_x;
   double straight_m;
 };
@@ -37,10 +39,10 @@ constexpr TaughtWay kWays[] = {
     {"east", "x_m,y_m\n11.2,1.6\n8.6,1.6\n7.2,3.3\n7.2,5.6\n6,7\n3.5,7\n", "webcam, 70 deg",
      "webcam+hfov_deg=70", 11.2, 1.6, -1.0, 1.0},
 };
-// Where one may set down a robot that one has taken up, looking which way, in degrees: far along
-// the way of all, off every way, and near the beginning of two.
+// The places, with headings in degrees, where a robot that was taken up may be set down: far along
+// the common path, off every path, and near the beginning of two.
 constexpr const char* kSetDown[] = {"4.6,7,180", "9.5,7.9,200", "3.5,1.5,0"};
-// Who goes, by which camera, from which of these ways.
+// A robot's camera, and the path on which it begins.
 struct Goes {
   const char* camera;
   const char* camera_word;
@@ -68,14 +70,14 @@ DemoRobot MakeRobot(const std::filesystem::path& folder, std::uint64_t seed,
   robot.camera = camera;
   robot.camera_word = camera_word;
   robot.task = does;
-  // 63 bits: what a TOML file or another program can hold as well.
+  // It has 63 bits, which a TOML file or another program can hold as well.
   robot.seed = sim::Random(seed, name).Bits() >> 1U;
   robot.truth = folder / (name + "-truth.csv");
   robot.report = folder / (name + "-report.txt");
   return robot;
 }
 
-// The scout and robots with other cameras than its.
+// Plans the scout, and robots with other cameras.
 std::vector<DemoRobot> PlanSwarm(const std::filesystem::path& folder, std::uint64_t seed,
                                  const std::string& prefix, DemoRobot::Task task) {
   const auto plan = [&](const std::string& name, DemoRobot::Task does, const std::string& camera,
@@ -121,7 +123,7 @@ Result<NetworkPlan> PlanNetwork(const std::filesystem::path& folder, std::uint64
     const TaughtWay& way = kWays[goes.way];
     DemoRobot robot = MakeRobot(folder, seed, fmt::format("robot-{}", plan.journeys.size() + 1),
                                 DemoRobot::Task::kOnDuty, goes.camera, goes.camera_word);
-    // As one tells it by eye.
+    // Rounded to what people tell by eye.
     const double along_m =
         0.1 * static_cast<int>(
                   10.0 * sim::Random(seed, robot.name + " stands").Uniform(0.0, way.straight_m));

@@ -13,9 +13,9 @@ namespace trailcast::demo {
 namespace {
 
 constexpr double kThere_m = 0.5;
-// So near to what is closed nobody comes who is on another route.
+// A robot on another route does not come so near to the closed section.
 constexpr double kTrespass_m = 0.3;
-// From one true position to the next: no robot drives so far.
+// No robot drives so far between two true positions.
 constexpr double kCarried_m = 0.2;
 
 Result<trial::TruePath> TaughtBy(const DemoRobot& scout) {
@@ -53,7 +53,7 @@ bool Trespassed(const JourneyRow& row, const NetworkPlan& plan, const trial::Tru
   });
 }
 
-// What else there is to say of a robot than where it stood and stands.
+// Tells what else there is to say of a robot beside where it stood and stands.
 std::string Tell(const JourneyRow& row) {
   const std::string& name = row.robot.name;
   std::string text;

@@ -15,11 +15,11 @@ namespace {
 
 using exchange::AgentMode;
 
-// The server looks for joints beside all else that it does.
+// The server looks for junctions beside its other work.
 constexpr std::chrono::seconds kProposalsWithin{15};
 constexpr std::ptrdiff_t kEnoughProposals = 2;
 constexpr std::size_t kLastLines = 40;
-// A robot that was carried to where no way leads on waits for one: it is told of one by then.
+// A robot that was carried to a place without a path waits for one, and gets it by then.
 constexpr std::chrono::seconds kWaitsFor{10};
 
 }  // namespace
@@ -83,7 +83,7 @@ void NetworkShow::TakeAnswer(Time now) {
     return network::ParseListed(line).proposal.has_value();
   });
   if (proposed < kEnoughProposals && now <= proposals_until_) return;
-  // What is too short to be found, the operator knows.
+  // The operator knows the junctions that are too short to be found.
   to_type_ = {{"network", "confirm", "all", "above", "0.8"},
               {"network", "join", "hall@3", "round@2"},
               {"network", "name", "lab-2", fmt::format("hall@{}", plan_.goal_m)}};

@@ -7,7 +7,7 @@
 
 namespace trailcast::demo {
 
-// The options by which a program of that name is in the demo's network.
+// Returns the options that put a program of that name into the demo's network.
 [[nodiscard]] std::vector<std::string> NetworkWords(const program::CommonOptions& network,
                                                     const std::string& name);
 
