@@ -5,7 +5,7 @@
 
 namespace trailcast::sim {
 
-// Rough ground within a circle of the world's plane: bumps that wheels feel, and cameras do not
+// Rough ground within a circle of the world's plane, with bumps that wheels feel and cameras do not
 // see.
 struct RoughPatch {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  // metres
@@ -13,7 +13,7 @@ struct RoughPatch {
   double height_m = 0.01;  // RMS; 0.15 to 0.6 m long, flatter towards the circle's edge
 };
 
-// How much higher the ground is there. The same place gives the same, always.
+// Returns how much higher the ground is there. The same place always gives the same height.
 [[nodiscard]] double BumpAt(const std::vector<RoughPatch>& patches, const Eigen::Vector2d& place);
 
 }  // namespace trailcast::sim

@@ -13,58 +13,62 @@ namespace trailcast::sim {
 enum class LensModel {
   kPinhole,  // radius f tan(angle), bent by `distortion`
   kFisheye,  // equidistant: radius f times angle, bent by `distortion`; black beyond the lens
-  kOmni,     // mirror: a donut, ahead at the top, the robot's right at the right, outwards is up
+  kOmni,     // a mirror: a donut with ahead at the top, the robot's right at the right, and up
+             // outwards
 };
 
-// A camera and how it sits on its robot. Camera frame: x right, y down, z ahead. Pixel (0, 0) is
+// A camera and its mount on the robot. In its frame x is right, y down, z ahead. Pixel (0, 0) is
 // the centre of the upper left pixel, so the middle of the picture is ((width - 1) / 2, ...).
 struct CameraModel {
   std::string name;
   int width = 320;
   int height = 240;
   LensModel model = LensModel::kPinhole;
-  // Angle between the middles of the left and right edges, distortion included; 360 for omni.
+  // The angle between the middles of the left and right edges, including distortion; 360 for omni.
   double horizontal_fov_deg = 60.0;
-  // Barrel above 0, pincushion below: a ray at radius r without it comes to lie at about
-  // r (1 - distortion r^2), r in focal lengths (division model, monotone however strong).
+  // Distortion is barrel above 0 and pincushion below. A ray that would lie at radius r lies at
+  // about r (1 - distortion r^2), with r in focal lengths (division model, which is monotone
+  // however strong).
   double distortion = 0.0;
   double height_m = 0.35;  // above the ground
   double yaw_deg = 0.0;    // to the left of straight ahead
   double pitch_deg = 0.0;  // upwards
-  // What real cameras do wrong.
+  // These are errors of real cameras.
   double roll_deg = 0.0;  // clockwise as seen from behind it; 180: upside down
-  double ahead_m = 0.0;   // of the axle that the robot turns about
-  // Where the lens looks, off the picture's middle, to the right and down: shares of its width.
+  double ahead_m = 0.0;   // of the axle about which the robot turns
+  // How far the optical axis is off the picture's middle, to the right and down, as shares of its
+  // width.
   double centre_u = 0.0;
   double centre_v = 0.0;
-  // Somebody bumps into it so many seconds after it was switched on, and it looks further to the
-  // left from then on. 0 degrees: nobody does.
+  // Somebody bumps into the camera so many seconds after it was switched on, and it looks further
+  // to the left from then on. With 0 degrees nobody does.
   double knock_yaw_deg = 0.0;
   double knock_at_s = 0.0;
-  // Auto exposure: brightness wanders between so many times less and more, each within a period.
+  // Auto exposure: the brightness wanders between this factor less and more, each within a period.
   double exposure_swing = 1.0;
   double exposure_period_s = 4.0;
-  // Rolling shutter: its rows are read from the first to the last within so long; 0: all at once.
+  // Rolling shutter: the rows are read from first to last within this time; with 0, all at once.
   double readout_s = 0.0;
 };
 
-// Says which key is wrong, what it is and what is accepted.
+// The error says which key is wrong, its value and the accepted values.
 [[nodiscard]] Result<void> Validate(const CameraModel& camera);
-// `pinhole`, `fisheye` or `omni`.
+// Parses `pinhole`, `fisheye` or `omni`.
 [[nodiscard]] Result<LensModel> ParseLensModel(const std::string& word);
-// The built-in set: webcam, firewire, wide, hd, fisheye, omni.
+// Returns the built-in cameras: webcam, firewire, wide, hd, fisheye, omni.
 [[nodiscard]] const std::vector<CameraModel>& BuiltInCameras();
-// kNotFound lists the names there are.
+// kNotFound lists the existing names.
 [[nodiscard]] Result<CameraModel> FindCamera(const std::string& name);
 
-// The lens alone: which way a pixel looks, and where a direction is seen.
+// The lens alone: the direction in which a pixel looks, and the pixel that sees a direction.
 class Lens {
  public:
   // `camera` must be valid.
   explicit Lens(const CameraModel& camera);
-  // Unit vector in the camera frame, or nothing outside the lens's picture.
+  // Returns a unit vector in the camera frame, or nothing outside the lens's picture.
   [[nodiscard]] std::optional<Eigen::Vector3d> Direction(const Eigen::Vector2d& pixel) const;
-  // Where a direction (any length) falls, also beyond the picture's edge; nothing if nowhere.
+  // Returns where a direction (of any length) falls, also beyond the picture's edge, or nothing if
+  // the lens does not see it.
   [[nodiscard]] std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& direction) const;
 
  private:
@@ -82,8 +86,8 @@ class Lens {
   double outer_px_ = 0.0;
 };
 
-// Rotation from the camera frame to the robot's (x ahead, y left, z up) by its mount's yaw, pitch,
-// roll.
+// Returns the rotation from the camera frame to the robot's (x ahead, y left, z up) for a mount's
+// yaw, pitch and roll.
 [[nodiscard]] Eigen::Matrix3d BodyFromCamera(double yaw_rad, double pitch_rad,
                                              double roll_rad = 0.0);
 

@@ -14,7 +14,7 @@
 
 namespace trailcast::sim {
 
-// How the camera moves while it takes a picture, in its own frame (x right, y down, z ahead).
+// The camera's motion while it takes a picture, in its own frame (x right, y down, z ahead).
 struct CameraMotion {
   Eigen::Vector3d linear_mps = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_radps = Eigen::Vector3d::Zero();
@@ -27,7 +27,7 @@ struct PerfectView {
   int height = 0;
   std::vector<float> gray;
   std::vector<float> depth_m;  // along the pixel's ray
-  // The pixels that see something which moves by itself.
+  // The pixels that see something that moves by itself.
   struct Mover {
     std::size_t pixel = 0;
     Eigen::Vector3f velocity_mps;  // camera frame
@@ -35,18 +35,19 @@ struct PerfectView {
   std::vector<Mover> movers = {};
 };
 
-// One camera's rays, computed once, and its pictures of a world. Not for several threads at once.
+// Renders one camera's pictures of a world, with rays that are computed once. It is not
+// thread-safe.
 class CameraRenderer {
  public:
-  // `camera` must be valid. `lighting` stands in for the world's own (a sun that has moved).
+  // `camera` must be valid. `lighting` replaces the world's own, for a sun that has moved.
   CameraRenderer(std::shared_ptr<const World> world, const CameraModel& camera,
                  const Lighting& lighting);
   CameraRenderer(const std::shared_ptr<const World>& world, const CameraModel& camera)
       : CameraRenderer(world, camera, world->lighting()) {}
 
-  // The view from `world_from_camera` (camera frame: x right, y down, z ahead), with `actors` in
-  // the world. A camera that reads its rows one after the other has seen the upper ones before, by
-  // `motion`: the last one from there. The result is overwritten by the next call.
+  // Renders the view from `world_from_camera` (camera frame: x right, y down, z ahead) with
+  // `actors` in the world. A camera with a rolling shutter sees its last row from there, and has
+  // seen the upper ones earlier, by `motion`. The next call overwrites the result.
   [[nodiscard]] const PerfectView& Render(const Eigen::Isometry3d& world_from_camera,
                                           std::span<const PlacedPart> actors = {},
                                           const CameraMotion& motion = {});
@@ -60,7 +61,7 @@ class CameraRenderer {
     std::vector<float> x, y, z;  // unit vectors
     std::vector<float> spread;   // radians that the pixel covers; 0 outside the lens's picture
   };
-  // Corners are where four pixels meet, known by the index of the one to their lower right.
+  // Four pixels meet at a corner, which has the index of the lower right one.
   using Four = std::array<std::size_t, 4>;
   struct Edge {
     std::size_t pixel = 0;
@@ -98,9 +99,9 @@ class CameraRenderer {
   Rays rays_;
   PerfectView view_;
   std::vector<std::uint32_t> surface_;   // seen by each pixel, its complement if in shadow
-  std::vector<std::uint32_t> material_;  // of that
-  std::vector<Edge> edges_;              // pixels to be sampled more finely
-  std::vector<std::size_t> corners_;     // of those, as far as they need a ray
+  std::vector<std::uint32_t> material_;  // seen by each pixel, or its complement in shadow
+  std::vector<Edge> edges_;              // pixels to sample more finely
+  std::vector<std::size_t> corners_;     // their corners that need a ray
   std::vector<float> corner_gray_;
   double readout_s_;
   CameraMotion motion_;

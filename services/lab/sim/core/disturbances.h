@@ -8,7 +8,7 @@
 namespace trailcast::sim {
 
 // How much robots differ from their drawings and from each other, and how much goes wrong on the
-// way: standard deviations unless said otherwise. The defaults are what trials are measured with.
+// way, as standard deviations unless said otherwise. The defaults are those of trials.
 struct Disturbances {
   double odometry_scale = 0.01;
   double heading_bias_rad_per_m = 0.00523599;  // 0.3 degrees
@@ -20,19 +20,22 @@ struct Disturbances {
   double start_sideways_m = 0.05;
   double start_along_m = 0.10;
   double start_heading_rad = 0.0523599;  // 3 degrees
-  // Exposure gain against the scout's: between these, evenly in its logarithm.
+  // The exposure gain relative to the scout's is between these, evenly distributed in its
+  // logarithm.
   double gain_low = 0.7;
   double gain_high = 1.4;
 
-  // The scout starts where its path does, and its exposure is what the follower's is measured by.
+  // Returns those of a scout, which starts where its path does, and whose exposure is the reference
+  // for the follower's.
   [[nodiscard]] static Disturbances ForScout();
-  // A robot as drawn, on a start as given: for tests and demonstrations of principle.
+  // Returns those of a robot as drawn, with a start as given, for tests and demonstrations of
+  // principle.
   [[nodiscard]] static Disturbances None();
 };
 
-// What one robot turned out to be.
+// The errors of one robot.
 struct RobotErrors {
-  double odometry_scale = 1.0;  // metres driven for a metre that odometry says
+  double odometry_scale = 1.0;  // metres driven for each metre of odometry
   double heading_bias_rad_per_m = 0.0;
   double wheel_base = 1.0;  // true one over nominal one
   double slip = 0.0;
@@ -45,11 +48,12 @@ struct RobotErrors {
   double gain = 1.0;
 };
 
-// The sun some hours on: 15 to 45 degrees round to either side, up to 10 higher or lower.
+// Returns the light some hours later: the sun is 15 to 45 degrees to either side, and up to 10
+// higher or lower.
 [[nodiscard]] Lighting WithMovedSun(const Lighting& lighting, std::uint64_t seed);
 
-// Body and camera are drawn from `robot_seed`, where it is set down from `start_seed`: the same
-// robot may start twice.
+// Draws body and camera from `robot_seed`, and the start from `start_seed`, so that the same robot
+// can start twice.
 [[nodiscard]] RobotErrors DrawRobot(const Disturbances& disturbances, std::uint64_t robot_seed,
                                     std::uint64_t start_seed);
 // The same seed gives the same robot at the same start.

@@ -11,24 +11,24 @@
 namespace trailcast::sim {
 
 struct SensorOptions {
-  double exposure_s = 0.010;  // a cheap camera's, by indoor light; what moves smears
+  double exposure_s = 0.010;  // for a cheap camera in indoor light; motion smears
   double gain = 1.0;          // of the grey levels, from auto-exposure
   double vignetting = 0.25;   // share of light lost in the picture's corners
-  // Noise in grey levels: sigma^2 = read^2 + shot * level. 2.4 at mid grey, 3.0 at white.
+  // The noise in grey levels is sigma^2 = read^2 + shot * level: 2.4 at mid grey, 3.0 at white.
   double read_noise = 1.5;
   double shot_noise = 0.028;
 };
 
-// Turns a perfect view into the picture a real camera gives: motion blur, vignetting, exposure,
-// noise, 8 bits. Blur is a warp: each pixel averages the view along its own motion in the picture,
-// from its depth and the camera's motion. That costs a millisecond where rendering the exposure
-// several times would cost tens; it is only approximate at the borders of near things.
+// Turns a perfect view into a real camera's picture, with motion blur, vignetting, exposure, noise
+// and 8 bits. Blur is a warp: each pixel averages the view along its own motion in the picture,
+// which follows from its depth and the camera's motion. This costs a millisecond, where rendering
+// the exposure several times would cost tens; it is only approximate at the borders of near things.
 class ImageFormation {
  public:
   ImageFormation(const CameraModel& camera, const SensorOptions& options);
 
-  // Takes its noise from `random`; the same state and view give the same picture. `exposure`: as
-  // much brighter than the sensor's gain has it.
+  // Takes its noise from `random`, so that the same state and view give the same picture.
+  // `exposure` multiplies the brightness that the sensor's gain gives.
   [[nodiscard]] image::GrayImage Form(const PerfectView& view, const CameraMotion& motion,
                                       Random& random, double exposure = 1.0) const;
 

@@ -7,14 +7,14 @@
 
 namespace trailcast::sim {
 
-// The truth about a simulated robot: for whoever measures it, drives the scout as its operator, or
-// shoves it about. A follower must never see this header.
+// The truth about a simulated robot, for those who measure it, drive the scout as its operator, or
+// push it. A follower must never see this header.
 class Judge {
  public:
   // Keeps a reference to `robot`.
   explicit Judge(SimulatedRobot& robot) : robot_(robot) {}
 
-  // World frame.
+  // The pose is in the world frame.
   [[nodiscard]] const motion::Pose2& true_pose() const { return robot_.robot_.true_pose(); }
   // With height, roll and pitch from the ground.
   [[nodiscard]] Eigen::Isometry3d WorldFromBody() const { return robot_.robot_.WorldFromBody(); }
@@ -28,10 +28,10 @@ class Judge {
   [[nodiscard]] bool blocked_by_actor() const { return robot_.robot_.blocked_by_actor(); }
   [[nodiscard]] const Stage& stage() const { return robot_.stage_; }
 
-  // Moves the robot as if pushed, by metres in its own frame (x ahead, y left); its wheels do not
-  // turn, so odometry does not notice.
+  // Moves the robot as if it were pushed, by metres in its own frame (x ahead, y left). Its wheels
+  // do not turn, so odometry does not notice.
   void Shove(const motion::Pose2& by) { Carry(motion::Compose(true_pose(), by)); }
-  // The same, to a pose in the world's frame.
+  // Moves it in the same way to a pose in the world frame.
   void Carry(const motion::Pose2& to) { robot_.robot_.PlaceAt(to); }
 
  private:

@@ -19,11 +19,11 @@ struct WorldFileOptions {
 };
 
 // Reads a world in any format that Assimp knows (glTF, GLB, OBJ, ...), with its textures, embedded
-// or beside the file. A texture that cannot be had becomes a warning and is drawn in the material's
-// plain colour. Errors (missing, unreadable, no triangles, bad scale) name the file.
+// or beside the file. A missing texture becomes a warning, and the material's plain colour replaces
+// it. Errors (missing, unreadable, no triangles, bad scale) name the file.
 [[nodiscard]] Result<std::shared_ptr<const World>> LoadWorld(const WorldFileOptions& options);
 
-// From the command line's words: up "y" or "z", ground "mesh" or "flat".
+// These parse the command line's words: up "y" or "z", ground "mesh" or "flat".
 [[nodiscard]] Result<UpAxis> ParseUpAxis(const std::string& word);
 [[nodiscard]] Result<GroundMode> ParseGroundMode(const std::string& word);
 

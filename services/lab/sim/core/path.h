@@ -17,40 +17,42 @@ enum class Gear { kForwards, kBackwards };
 
 struct DrivenPath {
   Polyline points;  // at least two, no two neighbours the same
-  // The robot starts on the highest surface below this, if it is given.
+  // If this is given, the robot starts on the highest surface below it.
   std::optional<double> z_max_m;
-  // Where the points double back the robot turns on the spot; or, if this is given, it changes
-  // between driving forwards and backwards, and begins so.
+  // Where the points double back, the robot turns on the spot. If this is given, it instead changes
+  // between driving forwards and backwards, beginning with this gear.
   std::optional<Gear> shunts_from = std::nullopt;
 };
 
-// Ten kilometres: the curve that is driven is held in memory in steps of centimetres.
+// The driven curve is held in memory in steps of centimetres, so its length is limited to ten
+// kilometres.
 inline constexpr double kLongestPath_m = 10'000.0;
 
-// Reads `x_m,y_m[,z_m]` with that header line and at least two rows, a path of at most
-// kLongestPath_m; errors name file and line.
+// Reads `x_m,y_m[,z_m]` with that header line and at least two rows, and a path of at most
+// kLongestPath_m. Errors name file and line.
 [[nodiscard]] Result<DrivenPath> ReadPath(const std::filesystem::path& file);
 
-// At the first way-point, heading for the second. `points` has at least two.
+// Returns the pose at the first way-point, heading for the second. `points` has at least two.
 [[nodiscard]] motion::Pose2 StartPose(const Polyline& points);
-// The same; with its back to the second, if it begins backwards.
+// Returns the same pose, with its back to the second way-point if it begins backwards.
 [[nodiscard]] motion::Pose2 StartPose(const DrivenPath& path);
 [[nodiscard]] double Length(const Polyline& points);
-// The corners replaced by arcs of about `radius_m` (smaller where a leg is short), sampled every
-// `spacing_m`; the ends stay.
+// Returns the corners replaced by arcs of about `radius_m` (smaller if a leg is short), sampled
+// every `spacing_m`. The ends stay.
 [[nodiscard]] Polyline RoundCorners(const Polyline& points, double radius_m, double spacing_m);
 
 struct PlaceOnPath {
   double distance_m = 0.0;  // off the path
   double along_m = 0.0;     // from its beginning
-  double left_m = 0.0;      // the same distance, signed: above 0 left of the path
+  double left_m = 0.0;      // the same distance, signed: above 0 to the left of the path
 };
-// The nearest place on a poly-line of at least two points, between the two distances along it.
+// Returns the nearest place on a poly-line of at least two points, between the two distances along
+// it.
 [[nodiscard]] PlaceOnPath Nearest(const Polyline& points, const Eigen::Vector2d& place,
                                   double from_along_m = 0.0, double to_along_m = 1e18);
-// The point that far along, cut to the ends.
+// Returns the point that far along, clamped to the ends.
 [[nodiscard]] Eigen::Vector2d PointAlong(const Polyline& points, double along_m);
-// There, heading from so far before it to so far after it.
+// Returns the pose there, heading from `about_m` before it to `about_m` after it.
 [[nodiscard]] motion::Pose2 PoseAlong(const Polyline& points, double along_m, double about_m);
 
 }  // namespace trailcast::sim

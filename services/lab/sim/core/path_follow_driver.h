@@ -13,31 +13,31 @@ struct DriverOptions {
   double slowest_share = 0.4;   // of it, in the sharpest turn
   double turning_radps = 0.43;  // about 25 degrees a second, never more
   double acceleration_mps2 = 0.4;
-  double look_ahead_m = 0.30;    // of the pure pursuit; shorter cuts corners less but weaves
+  double look_ahead_m = 0.30;    // for pure pursuit; a shorter one cuts corners less but weaves
   double corner_radius_m = 0.6;  // way-points' corners are driven as arcs of this
-  double spot_turn_rad = 2.4;    // sharper ones are turned on the spot, or shunted
+  double spot_turn_rad = 2.4;    // sharper ones are turned on the spot, or by changing gear
   double arrived_within_m = 0.015;
-  std::optional<Gear> shunts_from = std::nullopt;  // as DrivenPath has it
+  std::optional<Gear> shunts_from = std::nullopt;  // see DrivenPath
 };
 
-// The human operator who drives the scout along way-points: sees where the robot truly is, steers
-// by pure pursuit, slows down in turns, stops at the end; where the path doubles back, stops and
-// turns on the spot, or goes on the other way.
+// The human operator who drives the scout along way-points. The operator sees where the robot truly
+// is, steers by pure pursuit, slows down in turns, and stops at the end. Where the path doubles
+// back, the robot stops and turns on the spot, or changes gear.
 class PathFollowDriver {
  public:
   explicit PathFollowDriver(const Polyline& way_points, const DriverOptions& options = {});
 
-  // What the operator asks of the robot that stands at `true_pose` (world frame). {0, 0} once
-  // arrived.
+  // Returns the operator's command for the robot at `true_pose` (world frame), which is {0, 0}
+  // after it has arrived.
   [[nodiscard]] motion::VelocityCommand Command(const motion::Pose2& true_pose);
   [[nodiscard]] bool arrived() const { return arrived_; }
-  // How much of the path is driven, 0..1.
+  // Returns the share of the path that is driven, 0..1.
   [[nodiscard]] double progress() const;
-  // The path with its corners rounded: what is really driven.
+  // Returns the path with rounded corners, as it is driven.
   [[nodiscard]] const Polyline& path() const { return path_; }
 
  private:
-  // From one turn on the spot, or change of gear, to the next.
+  // A part of the path between turns on the spot, or changes of gear.
   struct Leg {
     Polyline path;
     double length_m = 0.0;

@@ -9,25 +9,25 @@ namespace trailcast::sim {
 
 struct PlanOptions {
   double metres_per_pixel = 0.02;
-  // The world is cut open at this height and seen from above: no roof, no lamps.
+  // The world is cut open at this height and seen from above, without roof and lamps.
   double cut_z_m = 1.6;
 };
 
-// The world from straight above, in colour, to draw paths over. Pixel (px, py) shows the place
-// x = x_min_m + px * metres_per_pixel, y = y_max_m - py * metres_per_pixel (north is up).
+// The world from straight above, in colour, to draw paths over. Pixel (px, py) shows the place x =
+// x_min_m + px * metres_per_pixel, y = y_max_m - py * metres_per_pixel, with north up.
 struct PlanView {
   image::RgbImage picture;
   double metres_per_pixel = 0.0;
   double x_min_m = 0.0;
   double y_max_m = 0.0;
 
-  // Where a place of the world is on the picture, in pixels.
+  // Returns where a place of the world is on the picture, in pixels.
   [[nodiscard]] Eigen::Vector2d PixelOf(double x_m, double y_m) const {
     return {(x_m - x_min_m) / metres_per_pixel, (y_max_m - y_m) / metres_per_pixel};
   }
 };
 
-// Coarser than asked for where the picture would exceed 4000 pixels a side.
+// The picture is coarser than requested if it would exceed 4000 pixels a side.
 [[nodiscard]] PlanView RenderPlan(const World& world, const PlanOptions& options = {});
 
 }  // namespace trailcast::sim

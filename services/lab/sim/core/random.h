@@ -8,22 +8,22 @@
 
 namespace trailcast::sim {
 
-// Seeded random numbers that are the same with every standard library: only the generator is the
-// standard's (its sequence is fixed by it), the distributions are written out here.
+// Seeded random numbers that are the same with every standard library. The standard fixes its
+// generator's sequence, but not its distributions, so these are written out here.
 class Random {
  public:
-  // Streams of one seed with different names are independent, so that drawing once more in one
+  // Streams of one seed with different names are independent, so that an additional draw in one
   // part (a new disturbance, say) leaves all the others as they were.
   Random(std::uint64_t seed, std::string_view stream) : generator_(Mix(seed, stream)) {}
 
   [[nodiscard]] std::uint64_t Bits() { return generator_(); }
-  // In [0, 1).
+  // Draws from [0, 1).
   [[nodiscard]] double Uniform() { return static_cast<double>(generator_() >> 11U) * 0x1.0p-53; }
   [[nodiscard]] double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
   [[nodiscard]] int Integer(int low, int high) {
     return low + static_cast<int>(Uniform() * (high - low + 1));
   }
-  // Mean 0, standard deviation 1 (Box and Muller).
+  // Draws with mean 0 and standard deviation 1 (Box and Muller).
   [[nodiscard]] double Normal() {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - Uniform()));
     return radius * std::cos(2.0 * std::numbers::pi * Uniform());

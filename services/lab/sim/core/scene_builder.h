@@ -23,48 +23,49 @@ struct TexturePart {
   Eigen::Vector2f lower_right = {1.0F, 1.0F};
 };
 
-// Puts a scene together from boxes, cylinders and panels, each in the frame of `Place`: furniture
-// is described once (x to its right, y to its back, z up, front at y = 0) and set where it stands.
+// Builds a scene from boxes, cylinders and panels, each in the frame of `Place`. Furniture is
+// described once (x to its right, y to its back, z up, front at y = 0) and put where it stands.
 class SceneBuilder {
  public:
-  // Fine enough for soft shadows under desks, coarse enough to bake quickly.
+  // This is fine enough for soft shadows under desks, and coarse enough to bake quickly.
   static constexpr float kBakedCell_m = 0.3F;
 
-  // Panels are cut into cells of at most that size: corners to which light is baked.
+  // Panels are cut into cells of at most that size, to whose corners light is baked.
   explicit SceneBuilder(float cell_m = kBakedCell_m) : cell_m_(cell_m) {}
 
   MaterialId AddMaterial(const std::string& name, const Eigen::Vector3f& color,
                          std::shared_ptr<const Texture> texture = nullptr, bool glows = false);
 
-  // Where what follows stands: the point of the world that its origin is put on, turned by `yaw`.
+  // Sets the frame of everything that follows: its origin in the world, turned by `yaw_rad`.
   void Place(const Eigen::Vector3f& origin, float yaw_rad);
-  // The same in the frame of another place.
+  // Sets the frame within another place's.
   void PlaceIn(const Eigen::Isometry3f& frame, const Eigen::Vector3f& origin, float yaw_rad);
   [[nodiscard]] const Eigen::Isometry3f& place() const { return place_; }
 
-  // A rectangle: from its upper left corner (seen from its front) to the right and down. Cut into
-  // cells.
+  // Adds a rectangle from its upper left corner (seen from its front) to the right and down, cut
+  // into cells.
   void Panel(MaterialId material, const Eigen::Vector3f& upper_left, const Eigen::Vector3f& right,
              const Eigen::Vector3f& down, const TexturePart& part = {});
-  // The texture repeats every `tile_m` metres on each face.
+  // Adds a box, on each of whose faces the texture repeats every `tile_m` metres.
   void Box(MaterialId material, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
            float tile_m = 1.0F);
-  // Upright, with a lid; the texture goes round it `repeats` times.
+  // Adds an upright cylinder with a lid; the texture goes round it `repeats` times.
   void Cylinder(MaterialId material, const Eigen::Vector3f& foot, float radius_m, float height_m,
                 float repeats = 1.0F, int sides = 14);
-  // A bar of square section between two points.
+  // Adds a bar of square section between two points.
   void Bar(MaterialId material, const Eigen::Vector3f& from, const Eigen::Vector3f& to,
            float thickness_m);
-  // Any four corners: upper left, lower left, lower right, upper right. Not cut into cells.
+  // Adds any four corners: upper left, lower left, lower right, upper right. They are not cut into
+  // cells.
   void Quad(MaterialId material, const std::array<Eigen::Vector3f, 4>& corners,
             const TexturePart& part = {});
-  // An open tube or cone; the texture goes round it once and repeats along it every `tile_m`.
+  // Adds an open tube or cone; the texture goes round it once and repeats along it every `tile_m`.
   void Tube(MaterialId material, const Eigen::Vector3f& from, const Eigen::Vector3f& to,
             float radius_from_m, float radius_to_m, int sides, float tile_m = 1.0F);
-  // A flat disc that looks along `axis`, with the texture's inscribed circle on it.
+  // Adds a flat disc that looks along `axis`, with the texture's inscribed circle on it.
   void Disc(MaterialId material, const Eigen::Vector3f& middle, const Eigen::Vector3f& axis,
             float radius_m, int sides);
-  // Any piece at all, with texture coordinates; its material does not count.
+  // Adds any piece, with texture coordinates; its own material is ignored.
   void Add(MaterialId material, const Mesh& piece);
 
   [[nodiscard]] Scene Take(const std::string& name);

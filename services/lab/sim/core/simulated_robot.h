@@ -21,21 +21,21 @@ namespace trailcast::sim {
 struct SimulatedRobotOptions {
   CameraModel camera;
   motion::Pose2 start;  // world frame; the drawn start error comes on top
-  // The robot stands on the highest surface below this; nothing: on the floor there.
+  // The robot stands on the highest surface below this or, without it, on the floor.
   std::optional<double> start_z_max_m;
   Disturbances disturbances;
   std::uint64_t seed = 1;
-  // Whose body and camera are drawn; nothing: those of `seed`, which also gives start and noise.
+  // The seed of its body and camera; without it they come from `seed`, as start and noise do.
   std::optional<std::uint64_t> robot_seed;
   RobotBody body;
   SensorOptions sensor;
   double rate_hz = 30.0;
-  std::optional<Lighting> lighting;  // nothing: the world's own
-  Actors actors;                     // by this robot's clock; the world itself stays as it is
-  std::vector<RoughPatch> rough{};   // what its wheels feel besides the world's ground
+  std::optional<Lighting> lighting;  // without it, the world's own
+  Actors actors;                     // by this robot's clock; the world itself does not change
+  std::vector<RoughPatch> rough{};   // bumps in addition to the world's ground
 };
 
-// What a robot gets to know in a step, and all that it gets to know.
+// Everything that a robot learns in a step.
 struct Observation {
   SensorTime stamp{};
   image::GrayImage image;
@@ -43,23 +43,22 @@ struct Observation {
   bool blocked = false;    // its bumper is pressed
 };
 
-// A robot with a camera in a world, in lockstep: time passes only in Step. The same options give
-// the same observations bit for bit for the same commands. Single-threaded; several robots may
-// share a world and run in threads of their own. Truth is not here but in judge.h.
+// A robot with a camera in a world, in lockstep: time passes only in Step. The same options and
+// commands give the same observations bit for bit. It is single-threaded, but several robots may
+// share a world and run on threads of their own. The truth is in judge.h.
 class SimulatedRobot {
  public:
-  // Fails on an impossible camera, on a rate that is none, and where there is no ground to start
-  // on.
+  // Fails on an impossible camera or rate, and if there is no ground to start on.
   [[nodiscard]] static Result<std::unique_ptr<SimulatedRobot>> Create(
       const std::shared_ptr<const World>& world, const SimulatedRobotOptions& options);
 
-  // Obeys `command` for one period of the clock, then looks. A first Step({}) is a look at the
-  // start, standing.
+  // Obeys `command` for one period of the clock, then takes a picture. A first Step({}) is a look
+  // at the start, standing.
   [[nodiscard]] Observation Step(const motion::VelocityCommand& command);
-  // The same without looking: `image` is empty.
+  // Does the same without a picture: `image` is empty.
   [[nodiscard]] Observation StepBlind(const motion::VelocityCommand& command);
 
-  // So much of what each wheel turns moves the robot, 1 on good ground.
+  // Sets the share of each wheel's turning that moves the robot, 1 on good ground.
   void SetGrip(double left, double right) { robot_.SetGrip(left, right); }
 
  private:

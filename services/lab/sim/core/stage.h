@@ -9,31 +9,31 @@
 
 namespace trailcast::sim {
 
-// A part of an actor where it is at this moment, for renderers and bumpers.
+// A part of an actor at its present place, for renderers and bumpers.
 struct PlacedPart {
   const World* body = nullptr;
   Eigen::Isometry3f world_from_part;
   Eigen::Isometry3f part_from_world;
-  // A ball round it, in the world: most rays pass it by.
+  // A bounding ball in the world, which most rays miss.
   Eigen::Vector3f middle;
   float radius_m = 0.0F;
   Eigen::Vector3f velocity_mps;
-  // Its first surface's number, counted on from the world's.
+  // The number of its first surface, counted on from the world's.
   std::uint32_t first_surface = 0;
 };
 
-// The actors of one robot's clock: where they all are now. The world itself stays as it is, to be
-// shared by many robots. With no actors it costs nothing.
+// The present places of all actors by one robot's clock. The world itself does not change, and many
+// robots can share it. Without actors this costs nothing.
 class Stage {
  public:
   Stage(std::shared_ptr<const World> world, Actors actors)
       : world_(std::move(world)), actors_(std::move(actors)) {}
 
-  // Moves everybody to where they are at that time, met by a robot that stands there.
+  // Moves all actors to their places at that time, where a robot stands at `robot`.
   void Advance(double time_s, const motion::Pose2& robot);
 
   [[nodiscard]] const std::vector<PlacedPart>& parts() const { return parts_; }
-  // The first actor's surface along a ray; its number counts on from the world's.
+  // Returns the first actor's surface along a ray; its number counts on from the world's.
   [[nodiscard]] std::optional<SurfaceHit> CastRay(const Eigen::Vector3f& origin,
                                                   const Eigen::Vector3f& direction,
                                                   double max_distance_m) const;

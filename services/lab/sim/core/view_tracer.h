@@ -10,7 +10,7 @@
 
 namespace trailcast::sim {
 
-// Sixteen rays from one place, traced together: the nearer to each other they are, the cheaper.
+// Sixteen rays from one place, traced together. They are cheaper the closer they are.
 struct RayPacket {
   static constexpr std::size_t kSize = 16;
   template <typename T>
@@ -18,10 +18,11 @@ struct RayPacket {
 
   Eigen::Vector3f origin;
   Lanes<float> x{}, y{}, z{};  // unit vectors
-  // Angle that the ray's pixel covers, radians: what textures are averaged over. 0: no ray.
+  // The angle that the ray's pixel covers, in radians, over which textures are averaged. 0 marks a
+  // missing ray.
   Lanes<float> spreads{};
-  // Of a texture along the long side of a slanted pixel's footprint; fewer where several rays share
-  // a pixel.
+  // Lookups of a texture along the long side of a slanted pixel's footprint. They are fewer if
+  // several rays share a pixel.
   static constexpr int kMostLookups = 6;
   int most_lookups = kMostLookups;
 
@@ -36,7 +37,7 @@ struct RayPacket {
   }
 };
 
-// What each ray of a packet meets first.
+// The first thing that each ray of a packet meets.
 struct PacketHits {
   static constexpr std::uint32_t kSky = 0xFFFFFFFFU;
   static constexpr float kSkyDepth_m = 1e9F;
@@ -52,25 +53,25 @@ struct PacketHits {
   }
 };
 
-// How that looks.
+// The appearance of these.
 struct PacketView {
-  RayPacket::Lanes<float> gray{};  // 0..255 and above where it is brighter than white
+  RayPacket::Lanes<float> gray{};  // 0..255, and more if it is brighter than white
   RayPacket::Lanes<bool> in_shadow{};
 };
 
-// Rays into a world, and what they see: texture filtered over the pixel's footprint, ambient light,
-// sun with its shadows. Keeps a reference to the world. Surfaces of actors count on from the
-// world's.
+// Casts rays into a world and tells what they see: texture filtered over the pixel's footprint,
+// ambient light, and sun with its shadows. It keeps a reference to the world. Actors' surfaces are
+// counted on from the world's.
 class ViewTracer {
  public:
   ViewTracer(const World& world, const Lighting& lighting) : world_(world), lighting_(lighting) {}
 
-  // Who is there besides the world, until the next call; not copied.
+  // Sets the actors that are there until the next call; `parts` is not copied.
   void ShowActors(std::span<const PlacedPart> parts) { actors_ = parts; }
 
   [[nodiscard]] PacketHits FindHits(const RayPacket& packet) const;
   [[nodiscard]] PacketView Shade(const RayPacket& packet, const PacketHits& hits) const;
-  // The actor's part that a surface belongs to; none: the world's own.
+  // Returns the actor's part that a surface belongs to, or null if it is the world's own.
   [[nodiscard]] const PlacedPart* PartOf(std::uint32_t surface) const;
 
  private:
@@ -86,8 +87,9 @@ class ViewTracer {
   Lighting lighting_;
 };
 
-// Ambient light on a surface whose normal (towards the viewer) is `normal`: more from above, and
-// a little from one side, so that walls, floor and ceiling of one colour can be told apart.
+// Returns the ambient light on a surface whose normal (towards the viewer) is `normal`: more from
+// above and a little from one side, so that walls, floor and ceiling of one colour can be told
+// apart.
 [[nodiscard]] inline float AmbientLight(const Lighting& lighting, const Eigen::Vector3f& normal) {
   if (!lighting.ambient_by_direction) return lighting.ambient;
   return lighting.ambient * (0.80F + 0.14F * normal.z() + 0.09F * normal.x() + 0.05F * normal.y());

@@ -9,8 +9,8 @@
 
 namespace trailcast::sim {
 
-// Puts up buildings. Each stands in the builder's current place: the left corner of its front at
-// the origin, the front towards -y, the body behind it.
+// Builds houses and blocks. Each stands in the builder's current place: the left corner of its
+// front is at the origin, the front faces -y, and the body is behind it.
 class Buildings {
  public:
   enum class Wall { kBrick, kDarkBrick, kWhitePlaster, kYellowPlaster, kConcrete };
@@ -28,7 +28,7 @@ class Buildings {
     float depth_m = 8.0F;
     int storeys = 2;
     Wall wall = Wall::kWhitePlaster;
-    bool alike = false;  // each window like the next, as in a row of houses built at once
+    bool alike = false;  // all windows are alike, as in a row of houses built at once
     bool garage = false;
   };
 

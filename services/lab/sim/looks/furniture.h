@@ -9,20 +9,20 @@
 
 namespace trailcast::sim {
 
-// Builds the furniture of a laboratory or office out of boxes, cylinders and panels. Each piece
+// Builds the furniture of a laboratory or an office out of boxes, cylinders and panels. Each piece
 // stands in the builder's current place: x to its right, y to its back, z up, front at y = 0.
 class Furniture {
  public:
   // Keeps a reference to `builder`. The same seed gives the same things on the same shelves.
   Furniture(SceneBuilder& builder, std::uint64_t seed);
 
-  // `at` is the piece's left front corner on the floor, seen by who stands before it looking along
-  // `yaw_rad` + 90 degrees.
+  // Puts the piece's left front corner on the floor at (x, y), as seen by a person in front of it
+  // who looks along `yaw_rad` + 90 degrees.
   void Stand(float x, float y, float yaw_rad, float z = 0.0F);
-  // The same of what belongs to the building, which nobody moves.
+  // Does the same for parts of the building, which nobody moves.
   void Build(float x, float y, float yaw_rad, float z = 0.0F);
-  // From here on somebody has moved so large a share of what stands, 0.3 to 0.6 m to its right or
-  // left; of one seed, a larger share moves what a smaller one does, too.
+  // From here on, this share of the furniture was moved, by 0.3 to 0.6 m to its right or left. With
+  // one seed, a larger share also moves everything that a smaller one does.
   void MoveSome(double share, std::uint64_t seed);
 
   void Desk(float width, float depth);
@@ -35,7 +35,7 @@ class Furniture {
   void Plant();       // its middle at the origin
   void Bin();         // its middle at the origin
   void Cartons(int count);
-  // Hung on a wall: the lower left corner of the piece at the origin, front towards -y.
+  // These hang on a wall: the lower left corner is at the origin, and the front faces -y.
   void Hang(MaterialId picture, float width, float height, float thickness = 0.02F);
   void Window(float width, float height);
   void Door(MaterialId leaf);

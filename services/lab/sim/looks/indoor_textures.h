@@ -7,9 +7,10 @@
 
 namespace trailcast::sim {
 
-// Pictures of what is found in a laboratory, drawn here: the same for the same arguments.
+// These functions draw pictures of things in a laboratory; the same arguments give the same
+// picture.
 
-// Surfaces, which repeat. `tint` is their middle colour.
+// Surfaces repeat. `tint` is their mean colour.
 [[nodiscard]] TexturePtr WoodGrain(image::Color tint, std::uint64_t seed);    // 1 m x 1 m
 [[nodiscard]] TexturePtr FloorBoards(std::uint64_t seed);                     // 2.4 m x 2.4 m
 [[nodiscard]] TexturePtr CarpetTiles(image::Color tint, std::uint64_t seed);  // 1 m x 1 m
@@ -18,11 +19,11 @@ namespace trailcast::sim {
 [[nodiscard]] TexturePtr CeilingTiles(std::uint64_t seed);                    // 1.2 m x 1.2 m
 [[nodiscard]] TexturePtr Fabric(image::Color tint, std::uint64_t seed);       // 0.5 m x 0.5 m
 
-// Things, seen from the front.
+// Things are seen from the front.
 [[nodiscard]] TexturePtr Poster(std::uint64_t seed);
 [[nodiscard]] TexturePtr Screen(std::uint64_t seed);
 [[nodiscard]] TexturePtr Keyboard();
-// 16 spines side by side, each a sixteenth of the width.
+// There are 16 spines side by side, each a sixteenth of the width.
 inline constexpr int kSpines = 16;
 [[nodiscard]] TexturePtr BookSpines(std::uint64_t seed);
 [[nodiscard]] TexturePtr Binders(std::uint64_t seed);  // likewise 16 of them

@@ -7,9 +7,9 @@
 
 namespace trailcast::sim {
 
-// Pictures of what is found out of doors, drawn here: the same for the same arguments.
+// These functions draw pictures of things out of doors; the same arguments give the same picture.
 
-// Ground, walls and plants, which repeat. `tint` is their middle colour.
+// Ground, walls and plants repeat. `tint` is their mean colour.
 [[nodiscard]] TexturePtr Asphalt(image::Color tint, std::uint64_t seed);   // 4 m x 4 m
 [[nodiscard]] TexturePtr Concrete(image::Color tint, std::uint64_t seed);  // 3 m x 3 m
 [[nodiscard]] TexturePtr Slabs(std::uint64_t seed);                        // 2 m x 2 m
@@ -23,7 +23,7 @@ namespace trailcast::sim {
 [[nodiscard]] TexturePtr WornPaint(std::uint64_t seed);  // 2 m x 2 m of road marking
 [[nodiscard]] TexturePtr Stone(std::uint64_t seed);      // about 0.5 m
 
-// Things, seen from the front.
+// Things are seen from the front.
 [[nodiscard]] TexturePtr HouseWindow(std::uint64_t seed);  // 2 wide, 3 high
 [[nodiscard]] TexturePtr ShopWindow(std::uint64_t seed);   // 2 wide, 1 high
 [[nodiscard]] TexturePtr HouseDoor(image::Color tint, const char* number);
@@ -33,7 +33,7 @@ namespace trailcast::sim {
 [[nodiscard]] TexturePtr RoundSign(const char* text);
 [[nodiscard]] TexturePtr NumberPlate(std::uint64_t seed);
 [[nodiscard]] TexturePtr ManholeCover();
-// From the roof line (top) to the sill (bottom): the sky's reflection, then the ground's.
+// From the roof line (top) to the sill (bottom) it shows the sky's reflection, then the ground's.
 [[nodiscard]] TexturePtr CarPaint(image::Color tint, std::uint64_t seed);
 [[nodiscard]] TexturePtr CarGlass(std::uint64_t seed);
 [[nodiscard]] TexturePtr CarFront(image::Color tint, std::uint64_t seed);  // grille and lamps

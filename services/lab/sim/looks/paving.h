@@ -16,36 +16,36 @@ struct GroundArea {
   Eigen::Vector2f high = {0.0F, 0.0F};
 };
 
-// What is left of an area round a hole in it: west, east, south and north of the hole.
+// Returns the parts of an area round a hole in it: west, east, south and north of the hole.
 [[nodiscard]] std::array<GroundArea, 4> Around(const GroundArea& area, const GroundArea& hole);
 
-// Lays ground and what is painted, cracked or mended in it, in world coordinates. Layers lie some
+// Lays ground, and paint, cracks and patches on it, in world coordinates. Layers are some
 // millimetres above each other, too little for a wheel to feel.
 class Paving {
  public:
   // Keeps a reference to `builder`. The same seed gives the same cracks.
   Paving(SceneBuilder& builder, std::uint64_t seed);
 
-  // `layer` 0 is the lowest; what overlaps needs different ones.
+  // `layer` 0 is the lowest; areas that overlap need different ones.
   void AsphaltGround(const GroundArea& area, int layer = 0);
   void LawnGround(const GroundArea& area, int layer = 0);
   void SlabGround(const GroundArea& area, int layer = 0);
-  // Raised by the height of a kerb, with kerb stones round it.
+  // It is raised by the height of a kerb, with kerb stones round it.
   void LawnIsland(const GroundArea& area);
   void Pavement(const GroundArea& area);
   void Kerb(const Eigen::Vector2f& from, const Eigen::Vector2f& to);
 
   void Line(const Eigen::Vector2f& from, const Eigen::Vector2f& to, float width_m = 0.10F);
-  // Lines between `count` bays side by side: from `corner` along `step`, each `depth` long.
+  // Draws lines between `count` bays side by side, from `corner` along `step`, each `depth` long.
   void BayLines(const Eigen::Vector2f& corner, const Eigen::Vector2f& step,
                 const Eigen::Vector2f& depth, int count);
   void Arrow(const Eigen::Vector2f& tail, float heading_rad);
   void Crack(const Eigen::Vector2f& from, const Eigen::Vector2f& to);
   void Patch(const Eigen::Vector2f& middle, const Eigen::Vector2f& size, float yaw_rad);
   void Manhole(const Eigen::Vector2f& middle);
-  // Cracks, patches, oil stains and manholes here and there, as many to the square metre.
+  // Scatters cracks, patches, oil stains and manholes, as many to the square metre.
   void Wear(const GroundArea& area, float density_per_m2);
-  // Any one of them; what is long lies within `reach_m`, along or across `heading_rad`.
+  // Adds any one of them. A long one is within `reach_m`, along or across `heading_rad`.
   void WearSpot(const Eigen::Vector2f& middle, float heading_rad, float reach_m);
 
   [[nodiscard]] MaterialId concrete() const { return concrete_; }

@@ -12,8 +12,8 @@ struct PedestrianOptions {
   bool long_coat = false;  // down to the knees; otherwise a jacket
 };
 
-// Somebody on foot, about 1.75 m tall: legs and arms that swing, clothes, hair and face drawn from
-// the seed.
+// Makes a person on foot, about 1.75 m tall, with swinging legs and arms. The seed draws clothes,
+// hair and face.
 [[nodiscard]] Result<std::shared_ptr<const ActorShape>> MakePedestrian(
     std::uint64_t seed, const PedestrianOptions& options = {});
 

@@ -9,15 +9,16 @@
 
 namespace trailcast::sim {
 
-// Lamp posts, signs, bins, fences and walls. Single pieces stand in the builder's current place,
-// their foot at the origin, front towards -y; fences and walls run from the origin along x.
+// Builds lamp posts, signs, bins, fences and walls. Single pieces stand in the builder's current
+// place, with their foot at the origin and the front towards -y. Fences and walls run from the
+// origin along x.
 class StreetFurniture {
  public:
   // Keeps a reference to `builder`. The same seed gives the same leaning posts.
   StreetFurniture(SceneBuilder& builder, std::uint64_t seed);
 
   void Stand(float x, float y, float yaw_rad = 0.0F, float z = 0.0F);
-  // Places the origin at `from` with x towards `to`, and tells how far that is.
+  // Puts the origin at `from` with x towards `to`, and returns the distance.
   float StandAlong(const Eigen::Vector2f& from, const Eigen::Vector2f& to);
 
   void LampPost(float height_m = 5.0F);

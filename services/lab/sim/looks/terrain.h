@@ -9,7 +9,7 @@
 
 namespace trailcast::sim {
 
-// Uneven ground: a sum of smooth random waves, without end and without repeats in sight.
+// Uneven ground: a sum of smooth random waves, endless and without visible repeats.
 class Terrain {
  public:
   struct Wave {
@@ -21,15 +21,15 @@ class Terrain {
   [[nodiscard]] float Height(float x, float y) const;
 
  private:
-  // One of the plane waves that together look random.
+  // One of the plane waves whose sum looks random.
   struct Ripple {
     float kx, ky, phase, amplitude_m;
   };
   std::vector<Ripple> ripples_;
 };
 
-// Where the lines of a height field's grid run along one axis: `cell_m` apart between the two
-// places, and ever wider from there out to the limits.
+// The lines of a height field's grid along one axis: `cell_m` apart between the two places, and
+// ever wider from there out to the limits.
 struct GridLines {
   float low_limit, fine_from, fine_to, high_limit;
   float cell_m;
@@ -40,7 +40,8 @@ void AddHeightField(SceneBuilder& builder, MaterialId material, const GridLines&
                     const GridLines& y, float tile_m,
                     const std::function<float(float, float)>& height);
 
-// A stone of about that radius, half in the ground, at the origin of the builder's current place.
+// Adds a stone of about that radius, half in the ground, at the origin of the builder's current
+// place.
 void AddBoulder(SceneBuilder& builder, MaterialId material, float radius_m, Random& random);
 
 }  // namespace trailcast::sim

@@ -11,10 +11,10 @@
 namespace trailcast::sim {
 
 // Grows plants out of clusters of leaves (flat, ragged, textured) round dark cores. Each stands in
-// the builder's current place, on z = 0, its middle at the origin unless said otherwise.
+// the builder's current place on z = 0, with its middle at the origin unless said otherwise.
 class Vegetation {
  public:
-  // How many clusters there are to a square metre, and how large: what is near needs small ones.
+  // The number of clusters to a square metre, and their size; near plants need small ones.
   struct Detail {
     float clusters_per_m2;
     float cluster_m;
@@ -31,7 +31,7 @@ class Vegetation {
   void Tree(float height_m, float crown_radius_m, const Detail& detail = kAcross);
   void Conifer(float height_m, float radius_m, const Detail& detail = kAcross);
   void Bush(float radius_m, float height_m, const Detail& detail = kNear);
-  // Between two places, on z = 0 of the world.
+  // A hedge is between two places, on z = 0 of the world.
   void Hedge(const Eigen::Vector2f& from, const Eigen::Vector2f& to, float height_m, float depth_m,
              const Detail& detail = kNear);
   void Tussock(float radius_m, float height_m);

@@ -6,9 +6,11 @@ namespace trailcast::sim {
 
 enum class VehicleShape { kSaloon, kHatchback, kEstate, kVan };
 
-// The sizes of a vehicle in metres; y runs from the nose (low) to the tail, z = 0 is the ground.
+// The sizes of a vehicle in metres. y runs from the nose (low) to the tail, and z = 0 is the
+// ground.
 struct VehicleSizes {
-  // A section across the body: where along it, its lowest and highest point, half its width.
+  // A section across the body: its place along the body, its lowest and highest point, and half its
+  // width.
   struct Section {
     float y, low, high, half_width;
   };

@@ -15,9 +15,9 @@ class Vehicles {
   // Keeps a reference to `builder`. The same seed gives the same colours and plates.
   Vehicles(SceneBuilder& builder, std::uint64_t seed);
 
-  // With its middle at (x, y), its nose towards `heading_rad`.
+  // Parks a vehicle with its middle at (x, y) and its nose towards `heading_rad`.
   void Park(float x, float y, float heading_rad, VehicleShape shape);
-  // A car of any shape but the van's.
+  // Parks a car of any shape except the van's.
   void ParkAny(float x, float y, float heading_rad);
 
  private:

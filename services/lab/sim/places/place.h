@@ -16,21 +16,21 @@ namespace trailcast::sim {
 
 enum class Role { kScout, kFollower };
 
-// A world and the path that a scout is driven along through it.
+// A world, and the path on which a scout is driven through it.
 struct Place {
   std::shared_ptr<const World> world;
   DrivenPath path;
   double speed_mps = 0.4;  // of a scout on the straight
   double slip = 0.02;      // of wheels on this ground (Disturbances::slip)
-  // Who moves there (traffic.h); nothing: nobody does.
+  // Returns the people and things that move there (traffic.h); null if nobody does.
   Result<Actors> (*traffic)(const Place& place, Role role, std::uint64_t seed) = nullptr;
 };
 
 [[nodiscard]] const std::vector<std::string>& BuiltInPlaces();
-// A line on what a built-in place is; nothing where there is none of that name.
+// Returns a line on a built-in place, or nothing if there is none of that name.
 [[nodiscard]] std::optional<std::string> DescribePlace(const std::string& name);
 
-// Makes the built-in place, or reads the files. Errors name what is wrong and what there is.
+// Makes the built-in place, or reads the files. Errors say what is wrong and what exists.
 [[nodiscard]] Result<Place> OpenPlace(const PlaceOptions& options);
 
 }  // namespace trailcast::sim

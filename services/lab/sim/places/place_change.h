@@ -8,20 +8,20 @@
 
 namespace trailcast::sim {
 
-// What has become of a built-in place since it was taught. Shares are from 0 (as it was) to 1; of
-// one seed, what a smaller share has changed a larger one has, too.
+// How a built-in place has changed since it was taught. Shares are from 0 (as it was) to 1. With
+// one seed, a larger share includes all changes of a smaller one.
 struct PlaceChange {
-  double night = 0.0;     // daylight and ceiling lamps out, lamps that stand elsewhere lit
+  double night = 0.0;     // daylight and ceiling lamps are out, and lamps elsewhere are lit
   double textures = 0.0;  // this share of its materials has another one's texture
-  double moved = 0.0;     // this share of its furniture stands some decimetres further along
+  double moved = 0.0;     // this share of its furniture is moved along by some decimetres
   std::uint64_t seed = 1;
 };
 
-// The built-in place after that change. kInvalidArgument for a place that knows none, naming those
-// that do.
+// Returns the built-in place after that change. kInvalidArgument means that the place knows no
+// changes, and names those that do.
 [[nodiscard]] Result<Place> OpenChangedPlace(const std::string& name, const PlaceChange& change);
 
-// Gives a share of the scene's textured materials another one's texture.
+// Gives a share of the scene's textured materials the texture of another one.
 void ChangeTextures(double share, std::uint64_t seed, Scene& scene);
 
 }  // namespace trailcast::sim

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kSlightBend_rad = 0.35;
 constexpr double kTurning_radps = 4.0;
-// Of a person who meets a robot: paces, and how far to the side they come from and pass by.
+// These are for a person who meets a robot: the paces, and how far to the side the person comes
+// from and passes.
 constexpr double kStepIn_mps = 1.6;
 constexpr double kStroll_mps = 1.2;
 constexpr double kAside_m = 1.1;

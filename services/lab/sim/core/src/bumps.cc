@@ -13,11 +13,11 @@ constexpr int kWaves = 12;
 constexpr double kShortest_m = 0.15;
 constexpr double kLongest_m = 0.6;
 
-// Of RMS 1, from waves of all directions and lengths between the two.
+// Returns bumps with an RMS of 1, from waves of all directions with lengths between the two.
 double Bumps(const Eigen::Vector2d& place) {
   double sum = 0.0;
   for (int i = 0; i < kWaves; ++i) {
-    const double direction_rad = 2.399963 * i;  // the golden angle: no two go alike
+    const double direction_rad = 2.399963 * i;  // the golden angle, so that no two are alike
     const double share = (i + 0.5) / kWaves;
     const double length_m = kShortest_m * std::pow(kLongest_m / kShortest_m, share);
     const double along_m =

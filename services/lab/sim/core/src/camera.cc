@@ -23,7 +23,7 @@ bool IsWithin(double value, double low, double high) {
   return std::isfinite(value) && value >= low && value <= high;
 }
 
-// What needs no other value to be judged.
+// These values can be judged one by one.
 Result<void> ValidateEach(const CameraModel& camera) {
   struct Range {
     const char* key;

@@ -11,18 +11,18 @@ namespace {
 // Blocks of 4 x 4 pixels keep the rays of a packet together.
 constexpr int kBlock = 4;
 static_assert(std::size_t{kBlock} * kBlock == RayPacket::kSize);
-// Edges are collected by larger squares, so that neighbouring ones are traced together too.
+// Edges are collected by larger squares, so that neighbouring ones are traced together, too.
 constexpr int kSquare = 16;
 // Neighbours on different triangles that differ by less (grey levels) need no finer sampling.
 constexpr float kVisibleEdge = 16.0F;
-// Of an edge pixel's grey comes from its middle; the rest from its four corners, which it shares
-// with its neighbours: little more than one ray a pixel where edges are dense, as in foliage.
+// This share of an edge pixel's grey comes from its middle. The rest comes from its four corners,
+// which neighbours share; so dense edges, as in foliage, cost little more than one ray a pixel.
 constexpr float kMiddleShare = 1.0F / 2.0F;
 
 constexpr std::uint32_t kNoMaterial = 0xFFFFFFFFU;
 constexpr float kUnknownGray = -1.0F;
 
-// What is brighter than white would light up its edges.
+// A value brighter than white would light up its edges.
 float Cut(float gray) { return std::min(gray, 255.0F); }
 
 }  // namespace
@@ -59,7 +59,7 @@ CameraRenderer::Pose CameraRenderer::PoseAtRow(int y) const {
 void CameraRenderer::MakeRay(int x, int y) {
   const Eigen::Vector2d pixel(x, y);
   const auto direction = lens_.Direction(pixel);
-  // One-sided at the rim of the lens's picture.
+  // The difference is one-sided at the rim of the lens's picture.
   const auto change = [&](const Eigen::Vector2d& step) -> Eigen::Vector3f {
     if (!direction) return Eigen::Vector3f::Zero();
     if (const auto next = lens_.Direction(pixel + step)) {
@@ -102,14 +102,14 @@ void CameraRenderer::RenderBlock(int x0, int y0) {
   }
 }
 
-// Enough to tell things apart: each part of an actor counts as of one material.
+// A part of an actor counts as one material, which is enough to tell things apart.
 std::uint32_t CameraRenderer::MaterialOf(std::uint32_t surface) const {
   if (surface == PacketHits::kSky) return kNoMaterial;
   const PlacedPart* part = tracer_.PartOf(surface);
   return part == nullptr ? world_->surfaces()[surface].material : part->first_surface;
 }
 
-// Neighbouring triangles of one material in one plane: what differs there is the texture, which is
+// Neighbouring triangles of one material in one plane differ only in their texture, which is
 // filtered already.
 bool CameraRenderer::OnOnePlane(std::size_t a, std::size_t b) const {
   const auto count = static_cast<std::uint32_t>(world_->surfaces().size());
@@ -152,7 +152,7 @@ void CameraRenderer::FindEdges() {
   }
 }
 
-// The picture's rim has no corners of its own: pixels there take those further in.
+// The picture's rim has no corners of its own, so pixels there take those further in.
 CameraRenderer::Four CameraRenderer::CornersOf(int x, int y) const {
   const int left = std::max(x, 1);
   const int upper = std::max(y, 1);
@@ -166,8 +166,8 @@ CameraRenderer::Four CameraRenderer::PixelsRound(std::size_t corner) const {
   return {corner - width - 1, corner - width, corner - 1, corner};
 }
 
-// Between surfaces of one material, leaves of a crown or a shadow's edge on the ground, a corner
-// needs no ray: its grey is that of the pixels round it. So it is at the rim of the lens.
+// Between surfaces of one material (leaves of a crown, or a shadow's edge on the ground) a corner
+// needs no ray: its grey is that of the pixels round it. The same holds at the rim of the lens.
 void CameraRenderer::AddCorner(std::size_t corner) {
   if (corner_gray_[corner] != kUnknownGray) return;
   float sum = 0.0F;
@@ -183,8 +183,8 @@ void CameraRenderer::AddCorner(std::size_t corner) {
   if (!one_material && count == 4.0F) corners_.push_back(corner);
 }
 
-// What a ray through a corner meets is no news to the four pixels round it: grey of those that see
-// the same surface, or else of the one that is nearest in depth.
+// The four pixels round a corner already know what its ray meets. The grey is that of those that
+// see the same surface, or else of the one that is nearest in depth.
 float CameraRenderer::Borrow(std::size_t corner, std::uint32_t surface, float depth_m) const {
   float sum = 0.0F;
   float count = 0.0F;
@@ -207,7 +207,7 @@ void CameraRenderer::TraceCorners() {
   RayPacket packet;
   for (std::size_t first = 0; first < corners_.size(); first += RayPacket::kSize) {
     const std::size_t count = std::min(RayPacket::kSize, corners_.size() - first);
-    // Those of a packet are near each other.
+    // A packet's corners are near each other.
     const Pose pose = PoseAtRow(static_cast<int>(corners_[first]) / view_.width);
     packet.origin = pose.origin;
     packet.spreads.fill(0.0F);
@@ -249,7 +249,7 @@ const PerfectView& CameraRenderer::Render(const Eigen::Isometry3d& world_from_ca
   now_ = {world_from_camera.linear().cast<float>(), world_from_camera.translation().cast<float>()};
   motion_ = motion;
   tracer_.ShowActors(actors);
-  // Where the size is no multiple of the block's, the last ones overlap those before.
+  // If the size is no multiple of the block's, the last blocks overlap those before.
   for (int y = 0; y < view_.height; y += kBlock) {
     for (int x = 0; x < view_.width; x += kBlock) {
       RenderBlock(std::min(x, view_.width - kBlock), std::min(y, view_.height - kBlock));

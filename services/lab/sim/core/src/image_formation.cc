@@ -11,8 +11,8 @@ constexpr std::size_t kQuantiles = 4096;
 constexpr float kShortestHalfPath_px = 0.2F;
 constexpr float kLongestHalfPath_px = 20.0F;
 
-// The normal distribution's quantiles by walking its density: no inverse of erf is needed, and the
-// table comes out the same with every mathematics library to well within what matters.
+// Returns the normal distribution's quantiles by integrating its density. This needs no inverse of
+// erf, and gives the same table with every mathematics library, to well within what matters.
 std::vector<float> NormalQuantiles() {
   std::vector<float> quantiles(kQuantiles);
   double x = -6.0;

@@ -10,11 +10,12 @@ namespace trailcast::sim {
 namespace {
 
 constexpr int kSkyRays = 20;
-constexpr float kOpen_m = 1.5F;      // what is further away no longer darkens a corner
+constexpr float kOpen_m = 1.5F;      // things further away do not darken a corner
 constexpr float kLift_m = 0.012F;    // keeps samples off the surface and out of its neighbours
 constexpr float kBrightest = 1.25F;  // next to a lamp
 
-// Directions spread over the half-sphere about z, denser towards it (by the cosine): a spiral.
+// Returns directions spread over the half-sphere about z, denser towards it (by the cosine), on a
+// spiral.
 std::vector<Eigen::Vector3f> HalfSphere() {
   std::vector<Eigen::Vector3f> directions;
   directions.reserve(kSkyRays);

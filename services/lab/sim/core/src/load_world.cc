@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A texture that Assimp hands over decoded: 32-bit texels.
+// Converts a texture that Assimp hands over decoded, with 32-bit texels.
 image::RgbImage FromTexels(const aiTexture& texture) {
   image::RgbImage picture{static_cast<int>(texture.mWidth), static_cast<int>(texture.mHeight), {}};
   const std::span<const aiTexel> texels(texture.pcData,
@@ -60,7 +60,7 @@ class SceneReader {
     }
     const Eigen::Vector3f rgb = 255.0F * Eigen::Vector3f(color.r, color.g, color.b);
     material.color = rgb.cwiseMax(0.0F).cwiseMin(255.0F);
-    // Exporters often leave the colour black beside a texture that says it all.
+    // Exporters often leave the colour black beside a texture.
     if (material.texture && material.color.maxCoeff() <= 0.0F) material.color.setConstant(255.0F);
     return material;
   }
@@ -111,7 +111,8 @@ class SceneReader {
     for (unsigned i = 0; i < source.mNumVertices; ++i) {
       mesh.positions.push_back(ToWorld(transform * source.mVertices[i]));
       if (source.HasTextureCoords(0)) {
-        // Assimp counts v from the picture's lower edge, a texture here from its upper.
+        // Assimp counts v from the picture's lower edge, and textures here count from the upper
+        // one.
         const aiVector3D& uv = source.mTextureCoords[0][i];
         mesh.uvs.emplace_back(uv.x, 1.0F - uv.y);
       }

@@ -11,8 +11,8 @@ namespace {
 constexpr double kSpacing_m = 0.02;
 // Curvature is taken over this many points on either side (0.16 m).
 constexpr std::size_t kCurvatureReach = 8;
-// How far the robot may have come since the last command: it cannot jump to another stretch of a
-// path that crosses itself.
+// The robot may have come so far since the last command. The bound keeps it from jumping to another
+// section of a path that crosses itself.
 constexpr double kSearch_m = 1.0;
 constexpr double kFacing_rad = Radians(8.0);
 constexpr double kCreep_mps = 0.05;
@@ -56,7 +56,7 @@ void PathFollowDriver::AddLeg(const Polyline& way_points) {
   legs_.push_back(std::move(leg));
 }
 
-// As fast as turns allow, slowing down for them in time and for the end.
+// Plans speeds as high as turns allow, slowing down in time for them and for the end.
 void PathFollowDriver::PlanSpeeds(Leg& leg) const {
   const Polyline& path = leg.path;
   std::vector<double>& speeds_mps = leg.speeds_mps;
@@ -80,7 +80,7 @@ bool PathFollowDriver::backwards() const {
   return (*options_.shunts_from == Gear::kBackwards) == (leg_ % 2 == 0);
 }
 
-// True where the leg ends: the next one begins, or all is driven.
+// Returns true where the leg ends: the next one begins, or everything is driven.
 bool PathFollowDriver::EndsLeg(const Eigen::Vector2d& place) {
   const Leg& leg = legs_[leg_];
   along_m_ = Nearest(leg.path, place, along_m_, along_m_ + kSearch_m).along_m;
@@ -103,7 +103,7 @@ double PathFollowDriver::progress() const {
   return driven_m / all_m;
 }
 
-// Backwards as forwards, with the robot's back in front.
+// Driving backwards is driving forwards with the robot's back in front.
 motion::VelocityCommand PathFollowDriver::Command(const motion::Pose2& true_pose) {
   if (arrived_) return {};
   if (EndsLeg(motion::Position(true_pose))) return Command(true_pose);
@@ -114,13 +114,13 @@ motion::VelocityCommand PathFollowDriver::Command(const motion::Pose2& true_pose
   return {-command.linear_mps, command.angular_radps};
 }
 
-// Along the leg, with the front that `pose` has.
+// Drives along the leg, with the front that `pose` has.
 motion::VelocityCommand PathFollowDriver::Drive(const motion::Pose2& pose) {
   const Leg& leg = legs_[leg_];
   const Polyline& path = leg.path;
   const Eigen::Vector2d place = motion::Position(pose);
   const double left_m = leg.length_m - along_m_;
-  // Near the end there is nothing further ahead on the path: aim along its last direction.
+  // Near the end the path has no point further ahead, so its last direction is the aim.
   const Eigen::Vector2d end_direction = (path.back() - path[path.size() - 2]).normalized();
   const double beyond_m = std::max(0.0, options_.look_ahead_m - left_m);
   const Eigen::Vector2d aim =

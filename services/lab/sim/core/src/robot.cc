@@ -10,17 +10,17 @@
 namespace trailcast::sim {
 namespace {
 
-// A step that the wheels climb; anything higher is a wall.
+// The wheels climb a step of this height; anything higher is a wall.
 constexpr double kClimb_m = 0.15;
-// Ground further below than this is no ground for a wheel: it hangs at the body's height.
+// A wheel over ground further below than this hangs at the body's height.
 constexpr double kDrop_m = 0.5;
 // Bumpers feel at these heights, all round in steps of 15 degrees.
 constexpr std::array kBumperHeights_m = {0.12, 0.30};
 constexpr int kBumperRays = 24;
-// Surfaces less steep than this are driven over.
+// Less steep surfaces are driven over.
 constexpr float kSteepNormalZ = 0.6F;
 
-// A steering axle: from the middle to its stop; and below what speed it does not turn.
+// A steering axle needs this time from the middle to its stop, and does not turn below this speed.
 constexpr double kToFullLock_s = 0.4;
 constexpr double kStands_mps = 0.01;
 
@@ -43,8 +43,8 @@ DifferentialDriveRobot::DifferentialDriveRobot(std::shared_ptr<const World> worl
   StandOnGround();
 }
 
-// The axle turns towards what is asked for while the robot drives, and stays where it is while it
-// stands. Returns its curvature.
+// Turns the axle towards the commanded curvature while the robot drives, and leaves it while the
+// robot stands. Returns its curvature.
 double DifferentialDriveRobot::Steer(const motion::VelocityCommand& command, double duration_s) {
   const double tightest_per_m = 1.0 / body_.turn_radius_m;
   if (std::abs(command.linear_mps) > kStands_mps) {
@@ -63,7 +63,7 @@ DifferentialDriveRobot::Wheels DifferentialDriveRobot::Wanted(
   if (body_.turn_radius_m > 0.0) {
     turning_mps = Steer(command, duration_s) * command.linear_mps * half_base_m;
   }
-  // Turning comes first: what the wheels cannot do is taken from the speed ahead.
+  // Turning comes first: the speed ahead is reduced by what the wheels cannot do.
   const double room_mps = std::max(0.0, body_.top_speed_mps - std::abs(turning_mps));
   const double ahead_mps = std::clamp(command.linear_mps, -room_mps, room_mps);
   return {ahead_mps - turning_mps, ahead_mps + turning_mps};
@@ -102,7 +102,9 @@ DifferentialDriveRobot::Obstacle DifferentialDriveRobot::FeelAhead(double step_m
   const double travel_rad = pose_.heading_rad + (step_m < 0.0 ? Radians(180.0) : 0.0);
   for (int i = 0; i < kBumperRays; ++i) {
     const double off_rad = 2.0 * Radians(180.0) * i / kBumperRays;
-    if (std::cos(off_rad) < 0.1) continue;  // beside and behind: it drives away from there
+    if (std::cos(off_rad) < 0.1)
+      continue;  // beside and behind it: the robot drives away from
+                 // there
     const Eigen::Vector3f direction(static_cast<float>(std::cos(travel_rad + off_rad)),
                                     static_cast<float>(std::sin(travel_rad + off_rad)), 0.0F);
     for (const double height_m : kBumperHeights_m) {

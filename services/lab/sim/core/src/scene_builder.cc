@@ -8,7 +8,7 @@
 namespace trailcast::sim {
 namespace {
 
-// The point of a circle round `axis` at a share of the full turn.
+// Gives the point of a circle round `axis` at a share of the full turn.
 struct Rim {
   Rim(const Eigen::Vector3f& axis, float radius_m)
       : side(radius_m * axis.unitOrthogonal()), other(axis.normalized().cross(side)) {}

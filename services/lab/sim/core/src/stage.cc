@@ -10,7 +10,7 @@
 namespace trailcast::sim {
 namespace {
 
-// Feet step onto anything lower than this, a kerb or a mat.
+// Feet step onto anything lower than this, such as a kerb or a mat.
 constexpr double kStep_m = 0.4;
 constexpr double kHipHeight_m = 0.9;
 constexpr double kRoomWanted_m = 3.0;
@@ -34,7 +34,7 @@ void Stage::Advance(double time_s, const motion::Pose2& robot) {
   }
 }
 
-// The robot goes on driving while the person steps in, and is to be met so far off.
+// The robot goes on driving while the person steps in, and meets the person at this distance.
 void Stage::MeetRobot(Actor& actor, double time_s, const motion::Pose2& robot,
                       double speed_mps) const {
   if (!actor.encounter) return;

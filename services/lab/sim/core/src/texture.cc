@@ -8,15 +8,16 @@
 namespace trailcast::sim {
 namespace {
 
-// std::floor is a call on processors before SSE4.1, and this is the innermost loop of rendering.
+// std::floor is a function call on processors before SSE4.1, and this is the innermost loop of
+// rendering.
 inline int FloorOf(float x) {
   const int cut = static_cast<int>(x);
   return cut - (static_cast<float>(cut) > x ? 1 : 0);
 }
 
-constexpr float kFarthest = 1e6F;  // repeats; beyond, a float has no digits left for the texel
+constexpr float kFarthest = 1e6F;  // repeats; beyond that, a float has no digits left for the texel
 
-// A coordinate in 2^-32 of the picture, repeating.
+// Returns a repeating coordinate in 2^-32 of the picture.
 inline std::uint32_t Fixed(float coordinate) {
   const float bounded = std::max(-kFarthest, std::min(kFarthest, coordinate));
   return static_cast<std::uint32_t>(static_cast<std::int64_t>(bounded * 0x1.0p32F));
@@ -40,7 +41,7 @@ struct AxisTap {
 inline AxisTap AlongAxis(float coordinate, int size) {
   const float bounded = std::min(std::max(coordinate, -kFarthest), kFarthest);
   const float share = bounded - static_cast<float>(FloorOf(bounded));
-  // One picture further on, so that the half texel taken off leaves it above 0.
+  // Adding one picture keeps the value above 0 when half a texel is taken off.
   const float at = (share + 1.0F) * static_cast<float>(size) - 0.5F;
   const int texel = static_cast<int>(at);
   return {texel >= size ? texel - size : texel, at - static_cast<float>(texel)};
@@ -91,7 +92,7 @@ Texture::Level Texture::Halve(const Level& level) {
   Level half{std::max(1, level.width / 2), std::max(1, level.height / 2), {}, {}};
   half.rgb.reserve(3U * static_cast<std::size_t>(half.width) *
                    static_cast<std::size_t>(half.height));
-  // Odd sizes: each texel averages the share of rows and columns that fall to it.
+  // At odd sizes, each texel averages its share of rows and columns.
   for (int y = 0; y < half.height; ++y) {
     const int y0 = y * level.height / half.height;
     const int y1 = std::max(y0 + 1, (y + 1) * level.height / half.height);

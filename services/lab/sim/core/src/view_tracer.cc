@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::size_t kSize = RayPacket::kSize;
 static_assert(kSize == kRays);
-// Of a pixel's footprint: longer ones see coarser texture.
+// The most that a pixel's footprint is stretched; longer ones use a coarser texture.
 constexpr float kMostStretch = 2.0F * RayPacket::kMostLookups;
 constexpr float kShadowOffset_m = 2e-3F;
 
-// log2 to within 0.01: enough to choose between mip-map levels.
+// Returns log2 to within 0.01, which is enough to choose between mip-map levels.
 float FastLog2(float x) {
   const auto bits = std::bit_cast<std::uint32_t>(x);
   const float exponent = static_cast<float>(bits >> 23U) - 127.0F;
@@ -23,8 +23,9 @@ float FastLog2(float x) {
   return exponent + (-0.34484843F * m + 2.02466578F) * m - 1.67487759F;
 }
 
-// The texture seen through one pixel. Its footprint on the surface is as wide as the pixel's cone
-// and longer by 1 / cos along the view: several lookups along it keep slanted floors sharp.
+// Returns the texture seen through one pixel. The pixel's footprint on the surface is as wide as
+// the pixel's cone, and longer by 1 / cos along the view. Several lookups along it keep slanted
+// floors sharp.
 float TextureGray(const Texture& texture, const Surface& surface, const Eigen::Vector3f& direction,
                   const Eigen::Vector2f& uv, float width_m, float cosine, int most_lookups) {
   const float stretch = 1.0F / std::max(cosine, 1e-3F);
@@ -60,7 +61,7 @@ void FindOnPart(const PlacedPart& part, const RTCRayHit16& query, const RayMask&
   }
 }
 
-// Marks the rays that the part stands in the way of as Embree does: by an end below 0.
+// Marks the rays that the part blocks as Embree does, by an end below 0.
 void ShadowOfPart(const PlacedPart& part, const RayMask& mask, RTCRay16& rays) {
   const RayMask near = PassingNear(part, rays, mask);
   if (!near.any()) return;

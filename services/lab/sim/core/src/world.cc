@@ -10,7 +10,7 @@
 namespace trailcast::sim {
 namespace {
 
-// Free height that a robot needs, used to tell a floor from a gap below one.
+// The free height that a robot needs tells a floor from a gap below one.
 constexpr double kFreeHeight_m = 0.5;
 constexpr float kSmallestArea_m2 = 1e-10F;
 
@@ -24,12 +24,12 @@ void FillGradients(const Eigen::Vector3f& edge_b, const Eigen::Vector3f& edge_c,
   const Eigen::Vector3f along_c = (bb * edge_c - bc * edge_b) / determinant;
   surface.grad_u = surface.uv_b.x() * along_b + surface.uv_c.x() * along_c;
   surface.grad_v = surface.uv_b.y() * along_b + surface.uv_c.y() * along_c;
-  // Slivers, whose edges are parallel to within rounding.
+  // Slivers have edges that are parallel to within rounding.
   if (!surface.grad_u.allFinite()) surface.grad_u.setZero();
   if (!surface.grad_v.allFinite()) surface.grad_v.setZero();
 }
 
-// Numbers that are none (files have them) must not reach the texture's lookups.
+// Values that are not finite, which files have, must not reach the texture's lookups.
 void FillUvs(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, Surface& surface) {
   surface.uv = surface.uv_b = surface.uv_c = Eigen::Vector2f::Zero();
   if (mesh.uvs.empty()) return;
@@ -73,8 +73,8 @@ void World::AddSurface(const Mesh& mesh, const std::array<std::uint32_t, 3>& cor
 }
 
 Result<void> World::BuildEmbreeScene() {
-  // One thread: trees built by several differ from run to run, and with them which of two
-  // coinciding faces is seen.
+  // One thread builds the tree. With several, trees differ from run to run, and with them the
+  // visible one of two coinciding faces.
   RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
   if (device == nullptr) {
     return Fail(ErrorCode::kInternal, "Embree cannot start (error {})",

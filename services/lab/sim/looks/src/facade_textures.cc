@@ -5,7 +5,7 @@
 #include "services/lab/sim/looks/outdoor_textures.h"
 #include "services/lab/sim/looks/src/pattern.h"
 
-// What is let into the walls of houses, and the signs on them.
+// These are the openings in the walls of houses, and the signs on them.
 
 namespace trailcast::sim {
 namespace {
@@ -27,7 +27,7 @@ Color Readable(Color ground) {
   return ground[0] + ground[1] + ground[2] > 420 ? Color{30, 30, 34} : Color{238, 236, 228};
 }
 
-// What a pane mirrors: the sky, and the roofs and trees across the way below it.
+// A pane mirrors the sky, and below it the roofs and trees on the other side.
 void Pane(Canvas& canvas, Random& random, double x, double y, double width, double height) {
   constexpr int kSteps = 24;
   for (int i = 0; i < kSteps; ++i) {

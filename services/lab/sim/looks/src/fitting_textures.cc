@@ -4,7 +4,7 @@
 #include "services/lab/sim/looks/indoor_textures.h"
 #include "services/lab/sim/looks/src/pattern.h"
 
-// Pictures of what is fitted to the room: doors, cupboards, windows, and the laboratory's devices.
+// These are the room's fittings: doors, cupboards, windows, and the laboratory's devices.
 
 namespace trailcast::sim {
 namespace {

@@ -74,7 +74,7 @@ void Furniture::Desk(float width, float depth) {
   b_.Box(metal_, {0.03F, 0.04F, 0}, {0.07F, depth - 0.04F, 0.71F});
   b_.Box(metal_, {width - 0.07F, 0.04F, 0}, {width - 0.03F, depth - 0.04F, 0.71F});
   b_.Box(light_wood_, {0.07F, depth - 0.06F, 0.30F}, {width - 0.07F, depth - 0.04F, 0.70F});
-  // Drawers.
+  // These are the drawers.
   b_.Box(white_, {width - 0.52F, 0.06F, 0.05F}, {width - 0.10F, depth - 0.1F, 0.62F});
   for (int i = 0; i < 3; ++i) {
     const float z = 0.12F + 0.18F * static_cast<float>(i);
@@ -163,7 +163,7 @@ void Furniture::RowOfSpines(float width, float depth, float z, float room_m) {
     b_.Panel(spines, {x, front, z + tall}, {thick, 0, 0}, {0, 0, -tall},
              {{u, 0.0F}, {u + 1.0F / kSpines, 1.0F}});
     b_.Panel(paper_, {x, depth - 0.04F, z + tall}, {thick, 0, 0}, {0, front - depth + 0.04F, 0});
-    // Only the sides that stand out beyond a neighbour are ever seen, but any may.
+    // Only the sides that stand out beyond a neighbour are visible, but any of them may.
     b_.Panel(dark_, {x, depth - 0.04F, z + tall}, {0, front - depth + 0.04F, 0}, {0, 0, -tall});
     b_.Panel(dark_, {x + thick, front, z + tall}, {0, depth - 0.04F - front, 0}, {0, 0, -tall});
     x += thick;

@@ -5,7 +5,7 @@
 #include "services/lab/sim/looks/outdoor_textures.h"
 #include "services/lab/sim/looks/src/pattern.h"
 
-// What one stands on and walks past out of doors: pictures that repeat.
+// These are the ground out of doors and what is beside it, as pictures that repeat.
 
 namespace trailcast::sim {
 namespace {
@@ -19,7 +19,7 @@ Canvas CanvasOn(const image::RgbImage& picture) {
   return canvas;
 }
 
-// Blades of grass: short strokes, more or less upright, each of a tone of its own.
+// Draws blades of grass: short strokes, more or less upright, each of a tone of its own.
 void DrawBlades(Canvas& canvas, Random& random, int count, Color tint, double longest_px) {
   const double size = canvas.picture().width;
   for (int i = 0; i < count; ++i) {

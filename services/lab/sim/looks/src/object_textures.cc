@@ -34,7 +34,7 @@ Color Contrast(Color paper) {
   return brightness > 1300 ? Color{25, 25, 30} : Color{240, 240, 235};
 }
 
-// Lines of text too small to read: dashes of the lengths that words have.
+// Draws lines of text too small to read: dashes with the lengths of words.
 void SmallPrint(Canvas& canvas, Random& random, double x, double y, double width, int lines,
                 double line_px, Color color) {
   for (int line = 0; line < lines; ++line, y += line_px) {
@@ -165,7 +165,7 @@ TexturePtr BookSpines(std::uint64_t seed) {
     Block(canvas, x, 0, kSpine_px, 320, cloth);
     Canvas title(200, kSpine_px, cloth);
     title.Text(Word(random), {8, 34}, random.Uniform(15, 24), Contrast(cloth));
-    // The title runs down the spine: its picture is turned by a quarter.
+    // The title runs down the spine, so its picture is turned by a quarter.
     image::RgbImage turned{kSpine_px, 200, std::vector<std::uint8_t>(std::size_t{600} * kSpine_px)};
     for (int row = 0; row < kSpine_px; ++row) {
       for (int column = 0; column < 200; ++column) {

@@ -8,7 +8,7 @@ namespace {
 
 double Smooth(double t) { return t * t * (3.0 - 2.0 * t); }
 
-// The shifts of a shape, in picture sizes, at which it touches the picture: 0 always.
+// Returns the shifts, in picture sizes, at which a shape touches the picture; 0 is always one.
 std::vector<double> Shifts(double low_px, double high_px, int size_px) {
   std::vector<double> shifts = {0.0};
   if (low_px < 0.0) shifts.push_back(size_px);
@@ -22,7 +22,7 @@ std::vector<image::PixelPoint> Shifted(std::vector<image::PixelPoint> points, do
   return points;
 }
 
-// Calls `draw` with the points and with their copies beyond the edges they reach over.
+// Calls `draw` with the points, and with their copies beyond the edges over which they reach.
 template <typename Draw>
 void Wrapped(const image::RgbImage& picture, const std::vector<image::PixelPoint>& points,
              double margin_px, const Draw& draw) {

@@ -12,9 +12,9 @@
 
 namespace trailcast::sim {
 
-// What the textures drawn here are made of.
+// The textures here are made of these.
 
-// Smooth random field that repeats after the picture: values at lattice points, blended.
+// A smooth random field that repeats with the picture: values at lattice points, blended.
 class RandomField {
  public:
   RandomField(int period_x, int period_y, Random& random);
@@ -29,7 +29,7 @@ class RandomField {
   std::vector<double> values_;
 };
 
-// `tint` made lighter or darker by so many grey levels.
+// Returns `tint` made lighter or darker by so many grey levels.
 [[nodiscard]] inline image::Color Lighter(image::Color tint, double levels) {
   for (std::uint8_t& channel : tint) {
     channel = static_cast<std::uint8_t>(std::clamp(channel + levels, 0.0, 255.0));
@@ -45,7 +45,7 @@ class RandomField {
   return a;
 }
 
-// A square picture whose pixels are what `color_at(x, y)` says, x and y in 0..1.
+// Returns a square picture whose pixels are `color_at(x, y)`, with x and y in 0..1.
 template <typename ColorAt>
 [[nodiscard]] image::RgbImage Painted(int size, const ColorAt& color_at) {
   image::RgbImage picture{size, size, {}};
@@ -59,18 +59,19 @@ template <typename ColorAt>
   return picture;
 }
 
-// A square picture whose pixels are `tint` made lighter or darker by `change(x, y)` grey levels.
+// Returns a square picture whose pixels are `tint`, made lighter or darker by `change(x, y)` grey
+// levels.
 template <typename Change>
 [[nodiscard]] image::RgbImage Tinted(int size, image::Color tint, const Change& change) {
   return Painted(size, [&](double x, double y) { return Lighter(tint, change(x, y)); });
 }
 
-// How far a place is from the joints of a grid, in shares of a cell.
+// Returns how far a place is from the joints of a grid, in shares of a cell.
 [[nodiscard]] double JointDistance(double share);
 
 void Block(image::Canvas& canvas, double x, double y, double width, double height,
            image::Color color);
-// On a picture that repeats: what leaves it on one side comes in on the other.
+// These draw on a picture that repeats: a shape that leaves it on one side comes in on the other.
 void WrappedLine(image::Canvas& canvas, image::PixelPoint from, image::PixelPoint to,
                  image::Color color, double width_px);
 void WrappedPolygon(image::Canvas& canvas, const std::vector<image::PixelPoint>& corners,

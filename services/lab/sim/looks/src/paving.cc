@@ -51,7 +51,7 @@ float Paving::Between(float low, float high) {
 void Paving::Ground(MaterialId material, const GroundArea& area, float z_m, float tile_m) {
   const V2 size = area.high - area.low;
   b_.Place({0, 0, 0}, 0);
-  // The texture's places are the world's, so that neighbouring areas match.
+  // The texture is placed in world coordinates, so that neighbouring areas match.
   b_.Panel(material, {area.low.x(), area.high.y(), z_m}, {size.x(), 0, 0}, {0, -size.y(), 0},
            {{area.low.x() / tile_m, -area.high.y() / tile_m},
             {area.high.x() / tile_m, -area.low.y() / tile_m}});
@@ -86,7 +86,7 @@ void Paving::Kerbs(const GroundArea& area) {
   Kerb(opposite, area.low);
 }
 
-// Stones of a metre with joints between.
+// A kerb has stones of a metre with joints between.
 void Paving::Kerb(const V2& from, const V2& to) {
   const V2 along = to - from;
   b_.Place(At(from, 0.0F), std::atan2(along.y(), along.x()));

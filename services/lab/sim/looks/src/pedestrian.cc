@@ -40,13 +40,14 @@ Color AnyOf(const std::array<Color, N>& colors, Random& random) {
   return colors[static_cast<std::size_t>(random.Integer(0, static_cast<int>(N) - 1))];
 }
 
-// A level oval: a body is a row of them with skin stretched over.
+// A level oval; a body is a row of them with skin stretched over.
 struct Oval {
   V middle;
   float half_x, half_y;
 };
 
-// From the top down; the texture goes round once, its middle in front, and down once.
+// Stretches skin from the top down. The texture goes round once, with its middle in front, and down
+// once.
 void Stretch(SceneBuilder& builder, MaterialId material, const std::vector<Oval>& ovals) {
   constexpr std::uint32_t kSides = 14;
   Mesh skin;
@@ -59,7 +60,7 @@ void Stretch(SceneBuilder& builder, MaterialId material, const std::vector<Oval>
       skin.positions.emplace_back(
           oval.middle + V(oval.half_x * std::cos(angle), oval.half_y * std::sin(angle), 0.0F));
       skin.uvs.emplace_back(share, (top - oval.middle.z()) / height);
-      // Makes it look round where no sun does: more light from above and from one side.
+      // More light from above and from one side makes it look round without a sun.
       skin.shade.push_back(0.52F + 0.14F * oval.middle.z() + 0.12F * std::cos(angle - 0.9F));
     }
   }
@@ -74,7 +75,7 @@ void Stretch(SceneBuilder& builder, MaterialId material, const std::vector<Oval>
   builder.Add(material, skin);
 }
 
-// One person's colours and size, the pieces built one after the other.
+// One person's colours and size; the pieces are built one after the other.
 class Figure {
  public:
   Figure(std::uint64_t seed, const PedestrianOptions& options)

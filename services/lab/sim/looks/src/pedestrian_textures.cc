@@ -17,7 +17,7 @@ constexpr double kFullTurn_rad = 2.0 * std::numbers::pi;
 
 enum class Weave { kPlain, kStriped, kChecked };
 
-// Grey levels that a pattern adds to its cloth.
+// Returns the grey levels that a pattern adds to its cloth.
 double Pattern(Weave weave, double repeats, double x, double y) {
   const double across = std::sin(kFullTurn_rad * repeats * x);
   const double along = std::sin(kFullTurn_rad * repeats * y);

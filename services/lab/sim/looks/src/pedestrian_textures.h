@@ -7,9 +7,10 @@
 
 namespace trailcast::sim {
 
-// What people wear and look like, once round them: the front in the middle, up is up.
+// These are people's clothes, hair and faces, once round the body: the front is in the middle, and
+// up is up.
 
-// Plain, striped or checked, with a collar, a zip, pockets and a hem.
+// A jacket is plain, striped or checked, with a collar, a zip, pockets and a hem.
 [[nodiscard]] TexturePtr Jacket(image::Color tint, std::uint64_t seed);
 [[nodiscard]] TexturePtr TrouserLeg(image::Color tint, std::uint64_t seed);
 [[nodiscard]] TexturePtr Head(image::Color skin, image::Color hair, std::uint64_t seed);

@@ -5,7 +5,7 @@
 #include "services/lab/sim/looks/outdoor_textures.h"
 #include "services/lab/sim/looks/src/pattern.h"
 
-// Leaves, bark, planks and tiles: pictures that repeat.
+// These are leaves, bark, planks and tiles, as pictures that repeat.
 
 namespace trailcast::sim {
 
@@ -18,7 +18,7 @@ TexturePtr Foliage(Color tint, std::uint64_t seed) {
   Canvas canvas(512, 512, Lighter(tint, -64.0));
   constexpr int kLeaves = 1100;
   for (int i = 0; i < kLeaves; ++i) {
-    // What is drawn last lies on top, in the light.
+    // Later leaves lie on top, in the light.
     const double depth = static_cast<double>(i) / kLeaves;
     const double x = random.Uniform(0.0, 512.0);
     const double y = random.Uniform(0.0, 512.0);

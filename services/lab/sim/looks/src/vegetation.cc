@@ -12,7 +12,7 @@ namespace {
 using V = Eigen::Vector3f;
 
 constexpr float kFoliageTile_m = 0.8F;
-// Ambient light on a core and at the foot of a crown; its top has all of it.
+// The ambient light on a core and at the foot of a crown; its top has all of it.
 constexpr float kCoreShade = 0.55F;
 constexpr float kLowShade = 0.65F;
 
@@ -47,7 +47,7 @@ std::size_t Vegetation::AnyKind() {
   return static_cast<std::size_t>(random_.Integer(0, static_cast<int>(leaves_.size()) - 1));
 }
 
-// A ragged patch of leaves in the plane across `normal`, with some piece of the foliage on it.
+// Adds a ragged patch of leaves in the plane across `normal`, with a piece of the foliage on it.
 void Vegetation::Cluster(const V& middle, const V& normal, float size_m, float shade, Mesh& piece) {
   constexpr std::uint32_t kTips = 5;
   const V side = normal.unitOrthogonal();
@@ -66,7 +66,7 @@ void Vegetation::Cluster(const V& middle, const V& normal, float size_m, float s
   }
 }
 
-// What is seen between the leaves: a lumpy ball in the dark.
+// Adds what is visible between the leaves: a lumpy ball in the dark.
 void Vegetation::Core(const Ball& ball, std::size_t kind) {
   constexpr std::uint32_t kRows = 4;
   constexpr std::uint32_t kColumns = 7;

@@ -4,7 +4,7 @@
 #include "services/lab/sim/looks/outdoor_textures.h"
 #include "services/lab/sim/looks/src/pattern.h"
 
-// The skins of vehicles.
+// These are the surfaces of vehicles.
 
 namespace trailcast::sim {
 namespace {
@@ -21,7 +21,7 @@ std::string PlateText(Random& random) {
   return text;
 }
 
-// A lamp: a bright glass in a dark bezel.
+// Draws a lamp: a bright glass in a dark bezel.
 void LampGlass(Canvas& canvas, double x, double y, double width, double height, Color glass) {
   Block(canvas, x, y, width, height, {40, 40, 42});
   Block(canvas, x + 4, y + 4, width - 8, height - 8, glass);

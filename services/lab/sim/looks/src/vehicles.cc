@@ -13,7 +13,8 @@ using Corners = std::array<V, 4>;
 
 constexpr float kQuarter = std::numbers::pi_v<float> / 2.0F;
 
-// The part of a quadrilateral between shares of its width and height, lifted off it a little.
+// Returns the part of a quadrilateral between shares of its width and height, lifted off it a
+// little.
 Corners PartOf(const Corners& quad, float left, float top, float right, float bottom,
                float lift_m = 0.006F) {
   const V normal = (quad[1] - quad[0]).cross(quad[3] - quad[0]).normalized();

@@ -60,7 +60,7 @@ void BuildSecondPart(Rooms& rooms) {
   const float mitre = kHalfWidth_m * std::tan(0.5F * kBend_rad);
   const float width = 2.0F * kHalfWidth_m;
   const float end = kSecondPart_m;
-  // A little lower where it laps under the first part's floor.
+  // It is a little lower where it goes under the first part's floor.
   rooms.FloorAndCeiling(BeyondBend(-mitre, -kHalfWidth_m), kBend_rad,
                         {kPlainBeyond_m + mitre, width}, Look::kPlain, -0.002F);
   rooms.FloorAndCeiling(BeyondBend(kPlainBeyond_m, -kHalfWidth_m), kBend_rad,

@@ -20,7 +20,7 @@ void LayGrass(SceneBuilder& builder) {
                 {{0, 0}, {kSide_m / kTile_m, kSide_m / kTile_m}});
 }
 
-// All round, thick in places and thin in others.
+// The trees stand all round, thick in places and thin in others.
 void PlantTreeLine(Vegetation& plants) {
   constexpr int kTrees = 84;
   Random random(kFieldSeed, "tree line");

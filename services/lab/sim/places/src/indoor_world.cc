@@ -21,7 +21,7 @@ constexpr float kPartition_m = 4.35F;
 constexpr float kDoorFrom_m = 6.2F;
 constexpr float kDoorTo_m = 8.3F;
 
-// Which way a piece of furniture faces; its front looks towards...
+// The direction in which the front of a piece of furniture looks.
 constexpr float kSouth = 0.0F;
 constexpr float kEast = std::numbers::pi_v<float> / 2.0F;
 constexpr float kNorth = std::numbers::pi_v<float>;
@@ -62,7 +62,7 @@ void AddShell(SceneBuilder& b) {
   b.Box(green, {0, kPartition_m, 0}, {kDoorFrom_m, kPartition_m + 0.12F, kHeight_m}, 3);
   b.Box(green, {kDoorTo_m, kPartition_m, 0}, {kLength_m, kPartition_m + 0.12F, kHeight_m}, 3);
   b.Box(green, {kDoorFrom_m, kPartition_m, 2.2F}, {kDoorTo_m, kPartition_m + 0.12F, kHeight_m}, 3);
-  // The wall's inside, seen only where a plan cuts it open.
+  // The wall's inside shows only where a plan cuts it open.
   for (const auto& [from, to] : {std::pair{0.0F, kDoorFrom_m}, std::pair{kDoorTo_m, kLength_m}}) {
     b.Panel(skirting, {from, kPartition_m + 0.12F, 1.5F}, {to - from, 0, 0}, {0, -0.12F, 0});
   }
@@ -75,8 +75,8 @@ void AddShell(SceneBuilder& b) {
   }
 }
 
-// Ceiling panels in two rows a room, and the windows' daylight; at night next to nothing of either,
-// and lamps that somebody has left on, at the height of desks and shelves.
+// Ceiling panels in two rows a room, and the windows, give the light. At night both are almost
+// dark, and some lamps are on, at the height of desks and shelves.
 std::vector<Lamp> AddLamps(SceneBuilder& b, double night) {
   const auto glow = b.AddMaterial("lamp", {250, 250, 246}, nullptr, true);
   const auto frame = b.AddMaterial("lamp frame", {190, 190, 190});
@@ -107,7 +107,8 @@ std::vector<Lamp> AddLamps(SceneBuilder& b, double night) {
   return lamps;
 }
 
-// South: desks under the windows, an island of desks, shelves and the tall things along the east.
+// The south room has desks under the windows, an island of desks, and shelves and tall things along
+// the east.
 void FurnishSouthRoom(Furniture& f, SceneBuilder& b) {
   for (const float x : {2.7F, 6.3F, 9.9F}) {
     f.Build(x, 0.0F, kNorth, 1.0F);
@@ -168,7 +169,8 @@ void FurnishSouthRoom(Furniture& f, SceneBuilder& b) {
   f.Hang(f.poster(), 0.6F, 0.85F);
 }
 
-// North: a bench along the wall, an island, and at the path's end a wall of shelves and a door.
+// The north room has a bench along the wall, an island, and, at the path's end, a wall of shelves
+// and a door.
 void FurnishNorthRoom(Furniture& f, SceneBuilder& b) {
   for (const float x : {2.3F, 4.3F, 8.9F}) {
     f.Stand(x, kWidth_m - 0.74F, kSouth);

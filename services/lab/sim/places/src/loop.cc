@@ -13,7 +13,7 @@ constexpr float kNorth = kPi / 2.0F;
 constexpr float kSouth = -kPi / 2.0F;
 constexpr float kEast = 0.0F;
 constexpr float kWest = kPi;
-// The way's straight stretches run along these.
+// The path's straight sections run along these.
 constexpr float kEastSide_m = 124.0F;
 constexpr float kNorthSide_m = 74.0F;
 

@@ -17,14 +17,14 @@ constexpr std::uint64_t kNarrowRoadSeed = 1924;
 constexpr float kRadius_m = 260.0F;  // the road bends to the left
 constexpr float kFrom_m = -16.0F;
 constexpr float kTo_m = 104.0F;
-// Places across the road, to the left of its middle.
+// These are places across the road, to the left of its middle.
 constexpr float kKerb_m = 2.6F;
 constexpr float kParkingEdge_m = 4.7F;
 constexpr float kLeftFence_m = 6.3F;
 constexpr float kLeftFronts_m = 8.2F;
 constexpr float kRightFence_m = -4.2F;
 
-// A place by its distance along the road's middle and how far left of it.
+// Returns a place by its distance along the road's middle and how far left of it is.
 V2 OnRoad(float along_m, float left_m) {
   const float angle = along_m / kRadius_m;
   const float reach = kRadius_m - left_m;
@@ -32,7 +32,7 @@ V2 OnRoad(float along_m, float left_m) {
 }
 float Heading(float along_m) { return along_m / kRadius_m; }
 
-// A ribbon of ground along the road between two distances from its middle.
+// Adds a ribbon of ground along the road between two distances from its middle.
 void Ribbon(SceneBuilder& builder, MaterialId material, float left_from, float left_to, float z_m,
             float tile_m) {
   constexpr float kStep_m = 2.0F;
@@ -70,7 +70,7 @@ void LayRoad(OutdoorKit& kit) {
   }
 }
 
-// A terrace of houses built at once: their windows are one like the other.
+// Builds a terrace of equal houses with equal windows.
 void Terrace(Buildings& buildings, float from_m, int houses, float left_m, Buildings::Wall wall) {
   constexpr float kWide_m = 7.0F;
   for (int i = 0; i < houses; ++i) {
@@ -100,13 +100,13 @@ void PutUpHouses(Buildings& buildings) {
       Buildings::Block{.width_m = 22, .storeys = 3, .wall = Buildings::Wall::kConcrete});
 }
 
-// Stretches of fence, each built by `build(length)` in pieces that follow the bend.
+// Builds sections of fence by `build(length)`, in pieces that follow the bend.
 template <typename Build>
 void Fence(StreetFurniture& street, float from_m, float to_m, float left_m, const Build& build) {
   constexpr float kPiece_m = 4.2F;
   for (float s = from_m; s < to_m - 0.1F; s += kPiece_m) {
     const float next = std::min(s + kPiece_m, to_m);
-    // Seen from the road: the fronts of the right side's fences look the other way.
+    // The right side's fences face the other way, so that the road sees their fronts.
     build(left_m > 0.0F ? street.StandAlong(OnRoad(s, left_m), OnRoad(next, left_m))
                         : street.StandAlong(OnRoad(next, left_m), OnRoad(s, left_m)));
   }

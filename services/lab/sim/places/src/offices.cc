@@ -11,7 +11,7 @@ namespace {
 using V2 = Eigen::Vector2f;
 
 constexpr std::uint64_t kSeed = 1973;
-// Which way a piece of furniture faces; its front looks towards...
+// The direction in which the front of a piece of furniture looks.
 constexpr float kSouth = 0.0F;
 constexpr float kEast = kPi / 2.0F;
 constexpr float kNorth = kPi;
@@ -25,7 +25,7 @@ void DeskWithThings(Furniture& f, float x, float y, float yaw_rad, float width =
   f.DeskThings(width, 0.75F);
 }
 
-// The corridor of `turns`: east, north, west, then through a passage to the room in the north.
+// The corridor of `turns` goes east, north, west, then through a passage to the room in the north.
 void BuildTurningCorridor(Rooms& rooms) {
   rooms.FloorAndCeiling({0.2F, 0.5F}, 0.0F, {7.3F, 2.0F}, Look::kPatterned);
   rooms.FloorAndCeiling({5.6F, 2.5F}, 0.0F, {1.9F, 3.9F}, Look::kPatterned);
@@ -111,7 +111,7 @@ void BuildDeskRoom(Rooms& rooms) {
   }
 }
 
-// Chairs are drawn out a little, their backs to the way.
+// Chairs are drawn out a little, with their backs to the path.
 void FurnishDeskRoom(Furniture& f) {
   DeskWithThings(f, 2.3F, 2.72F, kNorth);  // along the way in
   DeskWithThings(f, 0.6F, 1.2F, kSouth, 1.4F);

@@ -5,7 +5,7 @@
 
 namespace trailcast::sim {
 
-// Offices lit by lamps, for narrow and for plain surroundings.
+// These are offices lit by lamps, for narrow and for plain surroundings.
 
 // `turns`: 25 m round five corners of 90 to 125 degrees, past some plain walls, into a room.
 [[nodiscard]] Result<Place> MakeTurnsWorld();
