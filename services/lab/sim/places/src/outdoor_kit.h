@@ -14,7 +14,7 @@
 
 namespace trailcast::sim {
 
-// All that an outdoor place is put together from, on one builder.
+// Everything from which an outdoor place is built, on one builder.
 struct OutdoorKit {
   explicit OutdoorKit(std::uint64_t seed)
       : paving(builder, seed),
@@ -36,12 +36,12 @@ struct OutdoorKit {
   Lighting lighting;
 };
 
-// From behind and to the right of who drives along x: what lies ahead is in the light.
+// The sun is behind and to the right of a robot that drives along x, so what is ahead is lit.
 inline const Eigen::Vector3f kSunBehind = Eigen::Vector3f(-0.50F, -0.28F, 0.82F).normalized();
-// What drives are like out of doors, on firm ground.
+// The speed and the slip of drives out of doors, on firm ground.
 inline constexpr double kOutdoorSpeed_mps = 0.75;
 
-// The finished place: the kit's scene in its light, and the way through it.
+// Returns the finished place: the kit's scene in its light, and the path through it.
 [[nodiscard]] Result<Place> FinishOutdoors(OutdoorKit& kit, const std::string& name,
                                            GroundMode ground, Polyline points);
 

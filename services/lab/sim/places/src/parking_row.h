@@ -9,7 +9,7 @@
 
 namespace trailcast::sim {
 
-// Bays side by side, painted, some of them with a car in it.
+// Painted bays side by side, some of them with a car.
 class ParkingRows {
  public:
   static constexpr float kBayWidth_m = 2.5F;
@@ -19,8 +19,8 @@ class ParkingRows {
     Eigen::Vector2f corner = {0.0F, 0.0F};  // the row's least x and y
     bool along_x = true;                    // or along y
     int bays = 1;
-    float nose = 0.0F;   // heading of most cars; some came in backwards
-    double share = 0.7;  // of the bays that are taken
+    float nose = 0.0F;   // heading of most cars; some were parked backwards
+    double share = 0.7;  // share of the bays that are taken
   };
 
   ParkingRows(Paving& paving, Vehicles& vehicles, std::uint64_t seed)

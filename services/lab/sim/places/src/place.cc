@@ -90,7 +90,7 @@ Result<Place> OpenPlace(const PlaceOptions& options) {
     auto built = built_in->make();
     if (!built) return built;
     place = std::move(*built);
-    if (options.path.empty()) place.traffic = built_in->traffic;  // it goes by that path
+    if (options.path.empty()) place.traffic = built_in->traffic;  // traffic follows that path
   } else if (options.path.empty()) {
     return Fail(ErrorCode::kInvalidArgument,
                 "the world {} has no path of its own: give --path FILE with the header x_m,y_m "

@@ -22,7 +22,7 @@ constexpr float kEnd_m = kFoot_m + 2.0F * kRise_m + kLevel_m;
 constexpr float kHalfWidth_m = 1.6F;
 constexpr float kLean = 0.022F;  // sideways, 1.3 degrees
 
-// Height of the ramp's middle, its edges rounded off over a metre.
+// Returns the height of the ramp's middle, whose edges are rounded off over a metre.
 float MiddleHeight(float x) {
   constexpr int kSteps = 8;
   constexpr float kRound_m = 1.0F;
@@ -61,7 +61,7 @@ void BuildRamp(OutdoorKit& kit) {
 
 void LayGround(OutdoorKit& kit) {
   const GroundArea lot = {{-8, -13}, {54, 4}};
-  // Nothing below the ramp: there must be one ground only to stand on.
+  // There is nothing below the ramp, because robots need a single ground to stand on.
   const GroundArea ramp = {{kFoot_m, -kHalfWidth_m}, {kEnd_m, kHalfWidth_m}};
   for (const GroundArea& area : Around({{-60, -60}, {120, 70}}, lot)) kit.paving.LawnGround(area);
   for (const GroundArea& area : Around(lot, ramp)) kit.paving.AsphaltGround(area);

@@ -126,7 +126,7 @@ Result<Place> FinishIndoors(Scene scene, const std::vector<Lamp>& lamps, Polylin
   scene.ground = GroundMode::kFlat;
   scene.lighting.sun = 0.0F;
   scene.lighting.ambient = 1.0F;
-  scene.lighting.ambient_by_direction = false;  // the baked light says it all
+  scene.lighting.ambient_by_direction = false;  // the baked light includes it
   if (auto baked = BakeLight(lamps, scene, ambient); !baked) return tl::unexpected(baked.error());
   auto world = World::Build(std::move(scene));
   if (!world) return tl::unexpected(world.error());

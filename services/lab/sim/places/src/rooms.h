@@ -13,13 +13,13 @@
 
 namespace trailcast::sim {
 
-// A wall as seen by who stands before it: from its left end to the right.
+// A wall as seen by a person in front of it, from its left end to the right.
 struct WallLine {
   Eigen::Vector2f left_end = {0.0F, 0.0F};
   float yaw_rad = 0.0F;  // direction to the right
 };
 
-// What stands or hangs along a wall.
+// The things that stand or hang along a wall.
 enum class Fitting {
   kDoor,
   kPoster,
@@ -37,7 +37,7 @@ struct FittingAt {
   Fitting what;
 };
 
-// Floors, walls, ceilings and lamps of offices. Heights are from the floor at z = 0.
+// Builds floors, walls, ceilings and lamps of offices. Heights are from the floor at z = 0.
 class Rooms {
  public:
   enum class Look { kPatterned, kPlain };
@@ -47,12 +47,12 @@ class Rooms {
   // Keeps references. The same seed gives the same surfaces.
   Rooms(SceneBuilder& builder, Furniture& furniture, std::uint64_t seed);
 
-  // A level rectangle from `corner` in the frame turned by `yaw_rad`, with its ceiling.
+  // Adds a level rectangle from `corner` in the frame turned by `yaw_rad`, with its ceiling.
   void FloorAndCeiling(const Eigen::Vector2f& corner, float yaw_rad, const Eigen::Vector2f& size,
                        Look look, float z_m = 0.0F);
-  // Its front (the side one sees with `from` at the left and `to` at the right) on that line.
+  // Adds a wall whose front is on that line, seen with `from` at the left and `to` at the right.
   WallLine Wall(const Eigen::Vector2f& from, const Eigen::Vector2f& to, Look look);
-  // What is left of a wall above a passage.
+  // Adds the part of a wall above a passage.
   void Lintel(const Eigen::Vector2f& from, const Eigen::Vector2f& to);
   void CeilingLamp(const Eigen::Vector2f& middle, float yaw_rad);
   void Fit(const WallLine& wall, const std::vector<FittingAt>& fittings);
@@ -70,8 +70,8 @@ class Rooms {
   MaterialId carpet_, lino_, tiles_, white_, painted_, plain_wall_, skirting_, glow_, lamp_frame_;
 };
 
-// The finished place: the scene with the lamps' light baked into it, and the way through it.
-// `ambient` as BakeLight has it.
+// Returns the finished place: the scene with the lamps' light baked into it, and the path through
+// it. See BakeLight for `ambient`.
 [[nodiscard]] Result<Place> FinishIndoors(Scene scene, const std::vector<Lamp>& lamps,
                                           Polyline points, float ambient = 0.55F);
 

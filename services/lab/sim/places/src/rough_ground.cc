@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kRoughGroundSeed = 1887;
 constexpr double kRoughSlip = 0.05;
-// Grass and stones that a wheel would feel stay that far from the way.
+// Grass and stones that a wheel would feel stay so far from the path.
 constexpr double kClear_m = 0.75;
 
 const Polyline& WayPoints() {
@@ -42,7 +42,7 @@ class RoughGround {
   [[nodiscard]] float Between(double low, double high) {
     return static_cast<float>(random_.Uniform(low, high));
   }
-  // Anywhere within reach of the way but not on it.
+  // Returns a place within reach of the path, but not on it.
   Eigen::Vector2f BesideTheWay(double reach_m) {
     while (true) {
       const Eigen::Vector2d at(random_.Uniform(-3.0, 46.0), random_.Uniform(-reach_m, reach_m));
@@ -126,7 +126,7 @@ void RoughGround::Plant() {
     const float angle = 2.0F * kPi * (static_cast<float>(i) + Between(-0.3, 0.3)) / 54.0F;
     stand(25.0F + Between(58.0, 66.0) * std::cos(angle), Between(48.0, 55.0) * std::sin(angle));
     plants.Tree(Between(8.0, 13.0), Between(3.6, 5.0), Vegetation::kFar);
-    if (i % 2 == 0) {  // undergrowth, through which the sky does not show
+    if (i % 2 == 0) {  // undergrowth, through which no sky shows
       stand(25.0F + 61.0F * std::cos(angle + 0.05F), 50.0F * std::sin(angle + 0.05F));
       plants.Bush(Between(4.5, 5.5), Between(2.6, 3.6), Vegetation::kFar);
     }
@@ -136,7 +136,7 @@ void RoughGround::Plant() {
 void RoughGround::PutUpThings() {
   StreetFurniture& street = kit_.street;
   constexpr float kSpan_m = 4.4F;
-  for (float x = -6.0F; x < 34.0F; x += kSpan_m) {  // follows the ground from span to span
+  for (float x = -6.0F; x < 34.0F; x += kSpan_m) {  // it follows the ground from span to span
     street.Stand(x, 7.2F, 0.0F, Height(x + 0.5F * kSpan_m, 7.2F));
     street.RailFence(kSpan_m);
   }

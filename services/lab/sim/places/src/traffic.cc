@@ -16,13 +16,13 @@
 namespace trailcast::sim {
 namespace {
 
-// Places beside a path; it goes on straight beyond its ends.
+// Places beside a path, which continues straight beyond its ends.
 class BesidePath {
  public:
   explicit BesidePath(const Polyline& points) : points_(points), length_m_(Length(points)) {}
   [[nodiscard]] double length_m() const { return length_m_; }
   [[nodiscard]] Eigen::Vector2d At(double along_m, double left_m) const {
-    // Over a stretch, so that the path's own weaving is not copied.
+    // The direction is taken over this length, so that the path's own weaving is not copied.
     constexpr double kStretch_m = 8.0;
     const double from_m = std::clamp(along_m - kStretch_m, 0.0, length_m_ - 2.0 * kStretch_m);
     const Eigen::Vector2d from = PointAlong(points_, from_m);
@@ -36,7 +36,7 @@ class BesidePath {
   double length_m_;
 };
 
-// Along way-points at one pace, so as to be at the one with that number at `time_s`.
+// Walks along way-points at one speed, so as to be at number `meeting` at `time_s`.
 Timetable Through(const Polyline& way, double speed_mps, std::size_t meeting, double time_s) {
   const auto table_from = [&](double from_s, std::size_t count) {
     const Eigen::Vector2d first = way[1] - way[0];
@@ -93,7 +93,8 @@ Timetable Strolls(const BesidePath& road, Random& random) {
                  random.Uniform(0.9, 1.3), 0, random.Uniform(0.0, 20.0));
 }
 
-// Between two shares of the path, where it goes straight: a robot in a bend would pass.
+// A place between two shares of the path where it is straight, because a robot in a bend would
+// pass.
 struct OnPath {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   double heading_rad = 0.0;
@@ -113,7 +114,7 @@ OnPath OnStraight(const Polyline& path, Random& random, double from, double to) 
   return {motion::Position(pose), pose.heading_rad};
 }
 
-// Free room beside a place on the path, on the side that is there.
+// Returns the free room beside a place on the path, on the given side.
 double RoomBeside(const World& world, const Eigen::Vector2d& at, double towards_rad) {
   constexpr double kFar_m = 5.0;
   constexpr double kHeight_m = 0.5;
@@ -197,7 +198,7 @@ Result<Actor> CartOnThePath(const Place& place, std::uint64_t seed) {
   const double left_m = (room_left_m < room_right_m ? 1.0 : -1.0) * (0.5 * kWide_m - beyond_m);
   const Eigen::Vector2d at =
       on.at + left_m * Eigen::Vector2d(std::cos(left_rad), std::sin(left_rad));
-  // Before the robot is there, and for longer than it may take.
+  // It stands there before the robot comes, and for longer than the robot may take.
   constexpr double kFrom_s = -1.0;
   constexpr double kFor_s = 1e6;
   Timetable stands(kFrom_s, {at.x(), at.y(), on.heading_rad});
