@@ -8,11 +8,11 @@
 
 namespace trailcast::agent {
 
-// What an IMU on the ground below a body's middle says, with no noise of its own, by where the body
-// is from step to step.
+// Simulates an IMU on the ground below a body's middle, without noise, from the body's places step
+// by step.
 class BodyImu {
  public:
-  // `world_from_body`: x ahead, y left, z up. Of the first two steps it stands.
+  // In `world_from_body`, x is ahead, y left and z up. The body stands during the first two steps.
   [[nodiscard]] motion::ImuSample Feel(SensorTime stamp, const Eigen::Isometry3d& world_from_body);
 
  private:

@@ -11,7 +11,7 @@
 
 namespace trailcast::agent {
 
-// When: so many seconds after the robot was first told to drive, and for how long.
+// A time: so many seconds after the robot's first command to drive, and a duration.
 struct Spell {
   double after_s = 0.0;
   double for_s = std::numeric_limits<double>::infinity();
@@ -21,11 +21,11 @@ struct Spell {
   }
 };
 
-// From "12.5", or "4+0.3" for one that is over after 0.3 s.
+// Parses "12.5", or "4+0.3" for one that is over after 0.3 s.
 [[nodiscard]] std::optional<Spell> ParseSpell(std::string_view text);
 
-// What goes wrong with a virtual robot, so many seconds after it was first told to drive, and for
-// how long. What only happens at one moment (a frame set to zero, a clock set back) has no end.
+// A fault of a virtual robot, so many seconds after its first command to drive, and its duration.
+// An event at one moment (a frame set to zero, a clock set back) has no end.
 struct RobotFault {
   enum class Kind {
     kCameraFreezes,
@@ -33,7 +33,7 @@ struct RobotFault {
     kCameraClockBack,  // by five seconds
     kCameraStampsStand,
     kOdometryStops,
-    kOdometryRestarts,   // begins anew at zero
+    kOdometryRestarts,   // it begins again at zero
     kOdometryJumps,      // by two metres and half a radian
     kOdometryClockBack,  // by five seconds
     kBaseStops,
@@ -43,27 +43,27 @@ struct RobotFault {
   Spell spell;
 };
 
-// From "camera-freezes@12.5", or "base-stops@4+0.3" for one that is over after 0.3 s.
-// kInvalidArgument names all there are.
+// Parses "camera-freezes@12.5", or "base-stops@4+0.3" for one that is over after 0.3 s.
+// kInvalidArgument names all faults.
 [[nodiscard]] Result<RobotFault> ParseRobotFault(const std::string& text);
 [[nodiscard]] std::string RobotFaultNames();
 
-// Which of a robot's faults there are by now. Reads no clock itself.
+// Tells which of a robot's faults are present. It reads no clock itself.
 class RobotFaults {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   explicit RobotFaults(const std::vector<RobotFault>& faults);
 
-  // Once the robot has first been told to drive.
+  // Notes the robot's first command to drive.
   void DroveAt(Time now);
   // Returns the names of those that have begun since the last call.
   [[nodiscard]] std::vector<std::string> Advance(Time now);
 
   [[nodiscard]] bool active(RobotFault::Kind kind) const;
-  // Nothing: it was not yet told to drive.
+  // It is nothing before the first command to drive.
   [[nodiscard]] std::optional<double> SecondsDriven(Time now) const;
-  // Of the first one that began.
+  // Returns when the first fault began.
   [[nodiscard]] std::optional<Time> first_began_at() const { return first_began_at_; }
 
  private:

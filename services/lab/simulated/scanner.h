@@ -13,24 +13,24 @@
 
 namespace trailcast::agent {
 
-// Something round that stands in the world for a while, for scanner and range sensors alone:
-// cameras do not see it, and a base drives through it.
+// A round thing in the world for a while, which only the scanner and the range sensors see. Cameras
+// do not see it, and a base drives through it.
 struct Pillar {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  // world frame, metres
   double radius_m = 0.2;
   Spell spell;
 };
 
-// From "3,1.5,0.2@0+10": where, how wide, and when as for robots' faults.
+// Parses "3,1.5,0.2@0+10": place, radius, and time as for a robot's faults.
 [[nodiscard]] Result<Pillar> ParsePillar(const std::string& text);
 
-// What a scanner sees all round: the world's surfaces, who is on `stage`, and `pillars`. Frame of
-// the scanner: x ahead, y left.
+// Returns a scanner's view all round: the world's surfaces, the actors of `stage`, and `pillars`.
+// In its frame, x is ahead and y left.
 [[nodiscard]] motion::Scan LookAround(const sim::World& world, const sim::Stage& stage,
                                       const Eigen::Isometry3d& world_from_scanner,
                                       const std::vector<Pillar>& pillars);
 
-// What a sonar sees, straight ahead of it along x, within its cone in the level plane.
+// Returns a sonar's view along x, within its cone in the level plane.
 [[nodiscard]] motion::ConeRange LookAhead(const sim::World& world, const sim::Stage& stage,
                                           const Eigen::Isometry3d& world_from_sensor,
                                           const std::vector<Pillar>& pillars);

@@ -18,7 +18,7 @@ constexpr const char* kFileEnding = ".toml";
 
 using Field = std::variant<int*, double*, std::string*>;
 
-// Where each key's value goes. `model` is a word until it is parsed.
+// Returns where each key's value goes. `model` is a word until it is parsed.
 std::map<std::string, Field> Fields(sim::CameraModel& camera, std::string& model) {
   return {{"name", &camera.name},
           {"width", &camera.width},
@@ -81,7 +81,7 @@ Result<sim::CameraModel> Parse(std::istream& stream, sim::CameraModel camera) {
   const auto items = Items(stream);
   if (!items) return tl::unexpected(items.error());
   for (const CLI::ConfigItem& item : *items) {
-    if (item.name == "++" || item.name == "--") continue;  // a section's begin and end
+    if (item.name == "++" || item.name == "--") continue;  // a section's beginning or end
     if (auto set = Set(fields, item); !set) return tl::unexpected(set.error());
   }
   if (!model.empty()) {

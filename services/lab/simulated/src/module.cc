@@ -1,4 +1,4 @@
-// What the library of simulated robots exports.
+// The library of simulated robots exports this function.
 #include "services/lab/simulated/simulated_device.h"
 
 extern "C" void trailcast_open_simulated_robot(

@@ -12,11 +12,11 @@
 namespace trailcast::agent {
 namespace {
 
-// As a small robot's scanner has them.
+// These are the values of a small robot's scanner.
 constexpr int kRanges = 360;
 constexpr double kLeast_m = 0.12;
 constexpr double kMost_m = 8.0;
-// As a cheap sonar has it.
+// These are the values of a cheap sonar.
 constexpr double kSonar_rad = 0.5;
 constexpr int kSonarRays = 15;
 constexpr double kNearestSonar_m = 0.02;
@@ -42,7 +42,8 @@ std::optional<Pillar> PillarOf(std::string_view text) {
   return Pillar{{*x_m, *y_m}, *radius_m, *spell};
 }
 
-// Along a ray from `from`, `direction` of length 1; infinity: it passes.
+// Returns the distance along a ray from `from`, with `direction` of length 1, or infinity if it
+// misses.
 double DistanceTo(const Pillar& pillar, const Eigen::Vector2d& from,
                   const Eigen::Vector2d& direction) {
   const Eigen::Vector2d to = pillar.at - from;
@@ -55,7 +56,8 @@ double DistanceTo(const Pillar& pillar, const Eigen::Vector2d& from,
   return std::max(0.0, along_m - std::sqrt(half2));
 }
 
-// In the sensor's plane, so far to the left of where it looks; infinity: nothing there.
+// Returns the range in the sensor's plane, at an angle to the left of its axis, or infinity if
+// there is nothing.
 double Range(const sim::World& world, const sim::Stage& stage,
              const Eigen::Isometry3d& world_from_sensor, double angle_rad, double most_m,
              const std::vector<Pillar>& pillars) {

@@ -24,7 +24,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-// A small robot's scanner, above the ground.
+// The height of a small robot's scanner above the ground.
 constexpr double kScanner_m = 0.2;
 
 }  // namespace
@@ -34,21 +34,21 @@ struct SimulatedDevice::State {
   std::shared_ptr<const sim::World> world;
   std::unique_ptr<sim::SimulatedRobot> robot;
   std::optional<sim::PathFollowDriver> operator_;  // the scout's
-  std::optional<sim::DriverOptions> driver;        // who comes when it is driven by hand
-  sim::Polyline path;                              // along which
+  std::optional<sim::DriverOptions> driver;        // drives it on request by hand
+  sim::Polyline path;                              // the driver's path
   bool stays_at_end = false;
-  steady_clock::duration step{0};  // in real time
-  steady_clock::time_point due{};  // the next step
+  steady_clock::duration step{0};  // for real time
+  steady_clock::time_point due{};  // when the next step is
   motion::VelocityCommand command;
   BodyImu imu;
-  double battery_s = 0.0;  // that it lasts; 0: it tells of none
+  double battery_s = 0.0;  // how long it lasts; with 0 it reports none
   std::atomic<double> charge = 1.0;
   bool begun = false;                 // there was a frame
-  std::optional<CarriedOff> carried;  // to be
+  std::optional<CarriedOff> carried;  // still to come
   double driven_m = 0.0;
   Eigen::Vector2d was_m = Eigen::Vector2d::Zero();
   std::filesystem::path truth_file;
-  std::ofstream truth;  // of that, if there is one
+  std::ofstream truth;  // the file of true poses, if there is one
 
   void AwaitNext();
   [[nodiscard]] Observation Note(sim::Observation seen);
@@ -107,7 +107,8 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
   return device;
 }
 
-// More than a step is not caught up with: while nobody looked, no time has passed there.
+// A delay of more than a step is not made up for: while nobody asked for frames, no time has passed
+// there.
 void SimulatedDevice::State::AwaitNext() {
   if (step.count() == 0) return;
   std::this_thread::sleep_until(due);
@@ -143,7 +144,7 @@ Observation SimulatedDevice::NextBlind() {
   return s.Note(s.robot->StepBlind(s.command));
 }
 
-// Before the next frame.
+// This happens before the next frame.
 void SimulatedDevice::State::CarryOff(const motion::Pose2& from) {
   driven_m += begun ? (motion::Position(from) - was_m).norm() : 0.0;
   was_m = motion::Position(from);
@@ -159,7 +160,7 @@ void SimulatedDevice::State::CarryOff(const motion::Pose2& from) {
 Observation SimulatedDevice::State::Note(sim::Observation seen) {
   if (battery_s > 0.0) charge = std::max(0.0, 1.0 - Seconds(seen.stamp) / battery_s);
   const motion::Pose2 pose = Pose();
-  // Whoever looks meanwhile reads whole lines.
+  // Somebody who reads the file meanwhile gets whole lines.
   if (truth.is_open()) {
     truth << fmt::format("{:.4f},{:.4f},{:.4f},{:.5f}\n", Seconds(seen.stamp), pose.x_m, pose.y_m,
                          pose.heading_rad)

@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kListen{20};
-// In lockstep a frame that nobody answered is said again.
+// In lockstep, a frame without an answer is sent again.
 constexpr milliseconds kSayAgain{500};
 constexpr std::chrono::seconds kBatteryEvery{1};
 const motion::Pose2 kFront{0.25, 0.0, 0.0};
@@ -58,10 +58,10 @@ class VirtualRobot {
   dds::Ros2Robot& link_;
   const VirtualRobotOptions& options_;
   RobotElectronics electronics_;
-  motion::VelocityCommand answer_;  // in lockstep
+  motion::VelocityCommand answer_;  // for lockstep
   SensorTime seen_at_{0};
   std::optional<SensorTime> battery_said_at_;
-  std::optional<steady_clock::time_point> told_to_stand_at_;  // first after a fault
+  std::optional<steady_clock::time_point> told_to_stand_at_;  // the first stop after a fault
   steady_clock::time_point next_tick_ = steady_clock::now();
   std::size_t frames_ = 0;
   std::size_t said_again_ = 0;
@@ -100,7 +100,7 @@ Result<std::optional<Observation>> VirtualRobot::Sense() {
 
 Result<void> VirtualRobot::Say(const Observation& seen) {
   seen_at_ = seen.stamp;
-  // The picture last: the others are there when it comes.
+  // The picture comes last, so that the others are there when it arrives.
   if (auto said = SayOdometry(seen); !said) return said;
   if (auto said = SayWhatStands(seen.stamp); !said) return said;
   if (auto said = SayImu(seen); !said) return said;
@@ -115,7 +115,7 @@ Result<void> VirtualRobot::SayOdometry(const Observation& seen) {
   return link_.Publish(dds::Ros2Odometry{said->stamp, said->pose});
 }
 
-// Whose time passes only by frames in lockstep.
+// In lockstep, the robot's time passes only by frames.
 steady_clock::time_point VirtualRobot::Now() const {
   if (!options_.lockstep) return steady_clock::now();
   return steady_clock::time_point(std::chrono::duration_cast<steady_clock::duration>(seen_at_));
