@@ -11,19 +11,19 @@
 
 namespace trailcast::trial {
 
-// One way in which real robots are not as drawn, of which a trial draws how much and when.
+// A way in which real robots differ from their drawings; a trial draws its amount and its time.
 struct Flaw {
   std::string name;
   std::string summary;
 };
 
-// `all` is the last: all others of this list together.
+// The last one, `all`, is all others of this list together.
 [[nodiscard]] const std::vector<Flaw>& Flaws();
 [[nodiscard]] std::vector<std::string> FlawNames();
-// kNotFound lists the names there are. An empty name is a robot without any.
+// kNotFound lists the existing names. An empty name is a robot without flaws.
 [[nodiscard]] Result<void> CheckFlaw(const std::string& name);
 
-// What one follower turned out to be, and what its agent is told of it.
+// The flaws of one follower, and what its agent is told of them.
 struct RobotFlaws {
   sim::CameraModel camera;
   agent::RobotTiming timing;
@@ -32,9 +32,9 @@ struct RobotFlaws {
   std::optional<double> told_ahead_m;
 };
 
-// The flaw of that name, drawn for a follower with `camera`. `drive_s` is about how long it will be
-// under way: what happens at one moment does so between a quarter and two thirds of that. The same
-// seed gives the same robot. The name must be one of those above.
+// Draws the flaw of that name, which must exist, for a follower with `camera`. The drive takes
+// about `drive_s`; an event at one moment comes between a quarter and two thirds of that. The same
+// seed gives the same robot.
 [[nodiscard]] RobotFlaws DrawFlaws(const std::string& name, const sim::CameraModel& camera,
                                    double drive_s, std::uint64_t seed);
 

@@ -7,18 +7,18 @@
 
 namespace trailcast::trial {
 
-// A driven path in the world's plane, metres; points at least a centimetre apart.
+// A driven path in the world's plane, in metres, with points at least a centimetre apart.
 class TruePath {
  public:
-  // Ignored when less than a centimetre from the last point added.
+  // Ignores a point less than a centimetre from the last one.
   void Add(const Eigen::Vector2d& point_m);
 
   [[nodiscard]] bool empty() const { return points_m_.empty(); }
   [[nodiscard]] const std::vector<Eigen::Vector2d>& points_m() const { return points_m_; }
-  // Where the drive ended: the last point given to Add, even one that was too close to keep.
+  // Returns where the drive ended: the last point given to Add, even if it was too close to keep.
   [[nodiscard]] const Eigen::Vector2d& end_m() const { return end_m_; }
   [[nodiscard]] double length_m() const { return length_m_; }
-  // Distance from `point_m` to the nearest place on the path; the path must not be empty.
+  // Returns the distance from `point_m` to the nearest place on the path, which must not be empty.
   [[nodiscard]] double DistanceTo(const Eigen::Vector2d& point_m) const;
 
  private:
@@ -27,7 +27,7 @@ class TruePath {
   double length_m_ = 0.0;
 };
 
-// What truth says of one robot's following.
+// The verdict on one robot's following by the truth.
 struct PathVerdict {
   Eigen::Vector2d final_m = Eigen::Vector2d::Zero();
   double final_error_m = 0.0;       // from the taught end
@@ -36,17 +36,18 @@ struct PathVerdict {
   double max_path_error_m = 0.0;    // after the first kSettlingDistance_m
   double worst_path_error_m = 0.0;  // from the start on
   double driven_m = 0.0;
-  // From the taught path, kReturnDistance_m after a push; nothing if it did not come that far.
+  // Distance from the taught path, kReturnDistance_m after a push; nothing if the robot did not
+  // come that far.
   std::optional<double> after_push_m;
 };
 
 inline constexpr double kSettlingDistance_m = 2.0;  // belongs to the start error
-inline constexpr double kReturnDistance_m = 10.0;   // in which a pushed robot is to be back
+inline constexpr double kReturnDistance_m = 10.0;   // within which a pushed robot must be back
 inline constexpr double kArrivalRadius_m = 2.0;
 inline constexpr double kStrayLimit_m = 5.0;
 
-// Compares a follower's true positions, given in order, with the path that was taught. A short
-// drive, not yet settled, is judged by its last position.
+// Compares a follower's true positions, given in order, with the taught path. A drive too short to
+// settle is judged by its last position.
 class PathJudge {
  public:
   explicit PathJudge(TruePath taught) : taught_(std::move(taught)) {}
@@ -54,7 +55,7 @@ class PathJudge {
   // Returns the distance from the taught path.
   double Observe(const Eigen::Vector2d& position_m);
 
-  // The robot has just been pushed: what it does not drive itself counts for nothing.
+  // Notes that the robot was just pushed; the push is no driving of its own.
   void NotePush();
   [[nodiscard]] double driven_m() const { return driven_m_; }
 
@@ -77,7 +78,7 @@ class PathJudge {
   std::vector<Stretch> stretches_;
   std::optional<double> max_settled_m_;
   double worst_m_ = 0.0;
-  std::optional<double> pushed_at_m_;  // driven until then
+  std::optional<double> pushed_at_m_;  // distance driven until then
   std::optional<double> after_push_m_;
 };
 

@@ -7,8 +7,8 @@
 
 namespace trailcast::trial {
 
-// Makes of a route what a visit leaves of it, for the next follower. kUnavailable: the visit is not
-// believed, and the route as it was.
+// Refreshes a route after a visit, for the next follower. kUnavailable means that the visit is not
+// believed, and leaves the route as it was.
 [[nodiscard]] Result<refresh::Refreshed> RefreshTaught(const refresh::Visit& visit,
                                                        TaughtRoute& route);
 

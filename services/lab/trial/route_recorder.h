@@ -12,7 +12,7 @@
 
 namespace trailcast::trial {
 
-// A route as it travels.
+// A route as it is sent.
 struct TaughtRoute {
   route::RouteInfo info;
   std::vector<route::SegmentPiece> pieces;
@@ -25,11 +25,11 @@ class RouteRecorder {
   RouteRecorder(const std::string& name, const std::string& camera,
                 const agent::TeachOptions& options);
 
-  // Errors as TeachSession's.
+  // Errors are TeachSession's.
   [[nodiscard]] Result<void> Observe(const agent::Observation& seen);
-  // kUnavailable if nothing was seen that a segment could be made of.
+  // kUnavailable means that nothing was seen from which a segment could be made.
   [[nodiscard]] Result<TaughtRoute> Finish();
-  // Which of the frames observed each segment is made of; complete after Finish.
+  // Returns the frames from which each segment was made; complete after Finish.
   [[nodiscard]] const std::vector<FrameSpan>& spans() const { return spans_; }
 
  private:
@@ -42,7 +42,7 @@ class RouteRecorder {
   agent::TeachSession session_;
   TaughtRoute taught_;
   bool has_odometry_ = false;
-  std::optional<int> began_;  // the frame with which the segment under way did
+  std::optional<int> began_;  // the first frame of the segment under way
   std::vector<FrameSpan> spans_;
 };
 

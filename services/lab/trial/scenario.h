@@ -9,51 +9,52 @@
 
 namespace trailcast::trial {
 
-// Table I of Chen & Birchfield 2009, metres, ten trials each.
+// Figures from table I of Chen & Birchfield 2009, in metres, over ten trials each.
 struct PaperFigures {
   double accuracy_m = 0.0;
   double repeatability_m = 0.0;
   double largest_final_error_m = 0.0;
 };
 
-// Who teaches and who follows. A camera's name, or empty: the one that the command line says.
+// The cameras of scout and follower, by name; an empty one is the command line's.
 struct CameraPair {
   std::string scout;
   std::string follower;
 };
 
-// One of the experiments that following is measured by. Each trial is run once for every pair of
+// One of the experiments by which following is measured. Each trial is run once for every pair of
 // cameras, for every push and for every flaw.
 struct Scenario {
   std::string name;
   std::string summary;
   std::string place;  // a built-in place of services/lab/sim
   std::vector<CameraPair> cameras = {{}};
-  // The follower is shoved this far to the side, half way; its odometry does not notice.
+  // The follower is pushed this far to the side, half way; its odometry does not notice.
   std::vector<double> pushes_m = {0.0};
-  // What has become of the place when it is followed; of several visits, by the last of them: until
-  // then it comes bit by bit.
+  // How the place has changed when it is followed. With several visits, the change grows until the
+  // last of them.
   std::optional<sim::PlaceChange> change;
-  bool through_server = false;  // followers replay what a route server gives them
-  // What the follower has of real robots' flaws, each in trials of its own; empty: none.
+  bool through_server = false;  // followers get their route from a route server
+  // The follower's flaws, as real robots have them, each in trials of its own; an empty one is
+  // none.
   std::vector<std::string> flaws = {""};
-  std::optional<double> gain;  // exposure of the follower against the scout's; drawn
-  // Others move about while the robots drive: the place's traffic, and somebody who stands in the
+  std::optional<double> gain;  // the follower's exposure relative to the scout's; otherwise drawn
+  // Others move about while the robots drive: the place's traffic, and a person who stands in the
   // follower's way for ten seconds.
   bool traffic = false;
   bool somebody_in_the_way = false;
-  double somebody_ahead_m = 0.8;  // of the follower's middle, once there
-  // The follower has a scanner, and stands before what that sees in its way; a cart was left half
-  // on its path; and it may go round that so far beside the path.
+  double somebody_ahead_m = 0.8;  // from the follower's middle
+  // The follower has a scanner, and stops before obstacles. A cart stands half on its path, and the
+  // follower may pass it so far beside the path.
   bool scanner = false;
   bool parked_cart = false;
   double pass_m = 0.0;
-  std::optional<PaperFigures> paper;     // of the 2009 method
-  std::optional<PaperFigures> icra2006;  // of the first version
+  std::optional<PaperFigures> paper;     // for the method of 2009
+  std::optional<PaperFigures> icra2006;  // for the method's first version
 };
 
 [[nodiscard]] const std::vector<Scenario>& Scenarios();
-// kNotFound lists the names there are.
+// kNotFound lists the existing names.
 [[nodiscard]] Result<Scenario> FindScenario(const std::string& name);
 [[nodiscard]] std::vector<std::string> ScenarioNames();
 

@@ -18,34 +18,34 @@ struct TrialOutcome {
   TrialRow row;
   TruePath taught;
   TruePath replayed;
-  std::vector<route::TerrainStretch> ground{};  // of the taught one
+  std::vector<route::TerrainStretch> ground{};  // along the taught path
 };
 
 // One of several visits.
 struct TrialVisit {
-  int number = 0;                           // from 1; 0: there is but one
+  int number = 0;                           // from 1; 0 if it is the only one
   std::shared_ptr<const sim::World> world;  // as it is by then
   Spoiled spoiled = Spoiled::kNothing;
 };
 
-// One follower, and what it met with on the way.
+// One follower's outcome, and its findings on the way.
 struct Followed {
   TrialOutcome outcome;
   std::optional<refresh::Visit> met;
 };
 
-// What of a trial comes after teaching, with the route as it is given.
+// Runs the part of a trial after teaching, with the given route.
 [[nodiscard]] Result<Followed> Follow(const TrialSetup& setup, const TrialCase& trial_case,
                                       const TrialOptions& options, int trial, const Taught& taught,
                                       const TaughtRoute& route, const TrialVisit& visit,
                                       const TrialProgress& on_progress);
 
-// One trial in closed loop, in process, of what a scout taught before: what it taught goes through
-// the route format's bytes, and another robot, drawn anew, follows, under a sun that has moved on
-// where there is one; of several visits one after the other, each with a robot drawn anew. Truth
-// goes to the judge alone. `trial` counts from 1; the same setup, options.seed and trial give the
-// same outcomes, bit for bit, but for the CPU time. A robot that fails to arrive is an outcome, not
-// an error; an error is a path that cannot be driven, or a session that refuses a frame.
+// Runs one trial in closed loop, in this process, with a scout's route. The route goes through its
+// format's bytes, and another robot, drawn anew, follows it, under a sun that has moved on if there
+// is one. Several visits come one after the other, each with a robot drawn anew. Only the judge
+// gets the truth. `trial` counts from 1; the same setup, options.seed and trial give the same
+// outcomes, bit for bit, except for the CPU time. A robot that does not arrive is an outcome; an
+// error is a path that cannot be driven, or a session that refuses a frame.
 [[nodiscard]] Result<std::vector<TrialOutcome>> RunTrial(const TrialSetup& setup,
                                                          const TrialCase& trial_case,
                                                          const TrialOptions& options, int trial,

@@ -9,7 +9,7 @@
 
 namespace trailcast::trial {
 
-// Header and one line a row; the first columns are a contract, in this order.
+// Return the header and one line a row. The first columns are a contract, in this order.
 [[nodiscard]] std::string TrialCsvHeader();
 [[nodiscard]] std::string TrialCsvLine(const TrialRow& row);
 [[nodiscard]] Result<void> WriteTrialCsv(const std::vector<TrialRow>& rows,

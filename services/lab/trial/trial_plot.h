@@ -10,19 +10,19 @@
 
 namespace trailcast::trial {
 
-// What was driven, in the order of the outcomes: of one case, each replay in its own colour; of
-// several, a colour and a line of the legend for each of them.
+// Returns the driven paths in the order of the outcomes. With one case, each replay has its own
+// colour; with several, each case has a colour and a line in the legend.
 [[nodiscard]] std::vector<plot::PlottedPath> ReplayedPaths(
     const std::vector<TrialOutcome>& outcomes);
 
-// Where the ground was felt to be rough, along the path as it was taught.
+// Returns where the ground felt rough, along the taught path.
 [[nodiscard]] std::vector<plot::PlottedPath> RoughStretches(const TrialOutcome& outcome);
 
-// The part of the world that lies around the paths, seen from above and made pale.
+// Returns the part of the world around the paths, seen from above and made pale.
 [[nodiscard]] plot::Backdrop WorldBackdrop(const sim::World& world,
                                            const std::vector<plot::PlottedPath>& paths);
 
-// Taught and replayed paths of a batch over the world's plan, as PNG.
+// Writes the taught and the replayed paths of a batch over the world's plan, as PNG.
 [[nodiscard]] Result<void> WriteTrialPlot(const TrialSetup& setup,
                                           const std::vector<TrialOutcome>& outcomes,
                                           const std::filesystem::path& file);

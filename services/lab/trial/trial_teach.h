@@ -12,23 +12,23 @@
 
 namespace trailcast::trial {
 
-// What a scout left behind, and where it truly drove.
+// The result of a scout's drive, and its true path.
 struct Taught {
   std::vector<TaughtRoute> routes;  // one for each way of teaching
   TruePath path;
   double duration_s = 0.0;
 };
 
-// Drives a scout drawn from `seed` along the setup's path once, its frames taught in each
-// of these ways. `on_progress` gets the share of the path driven; false ends the drive.
-// kUnavailable when the robot cannot get along the path.
+// Drives a scout drawn from `seed` along the setup's path once, and teaches its frames in each of
+// these ways. `on_progress` gets the share of the path that is driven; false ends the drive.
+// kUnavailable means that the robot cannot get along the path.
 [[nodiscard]] Result<Taught> TeachOnce(const TrialSetup& setup, const sim::CameraModel& camera,
                                        const std::vector<agent::TeachOptions>& teachings,
                                        std::uint64_t seed,
                                        const std::function<bool(double share)>& on_progress);
 
-// What a follower gets: the bytes that the scout made, opened again.
-// `backwards`: to be driven from the end of what was taught to its beginning.
+// Opens a session with the bytes that the scout made. With `backwards`, the route is driven from
+// its end to its beginning.
 [[nodiscard]] Result<agent::ReplaySession> OpenSession(const TaughtRoute& taught,
                                                        const agent::ReplayMethodOptions& options,
                                                        bool backwards = false);

@@ -12,27 +12,28 @@
 namespace trailcast::trial {
 
 struct AlignOptions {
-  int every = 4;          // frames of the replayed recording: the others are not looked at
-  int teach_every = 4;    // of the taught one: places are told no closer than this
-  int good_inliers = 15;  // 14 were found between pictures of different places, too
+  int every = 4;          // step between the replayed recording's frames; others are skipped
+  int teach_every = 4;    // likewise for the taught one; places are not told more precisely
+  int good_inliers = 15;  // pictures of different places had up to 14
   int jobs = 1;           // threads
-  // Up to so many pairs of pictures, each is compared with each; beyond, those near the place last
-  // held, and all over the route where that is lost.
+  // Up to so many pairs, all pictures are compared with each other. With more, they are compared
+  // near the last place held, and all over the route when that is lost.
   std::size_t most_pairs = 200'000;
 };
 
-// What is being done, and how much of it: 0..1. False ends it.
+// Called with the present activity and its progress, 0..1; false ends the alignment.
 using AlignProgress = std::function<bool(const char* doing, double share)>;
 
 struct Aligned {
   Reference reference;
-  std::vector<std::string> news;  // what was found out of either's pictures; for people
+  std::vector<std::string> news;  // what was found out about the pictures of both, for people
 };
 
-// Where on one recording the frames of another were taken: SIFT features of both, held against the
-// geometry of two views, and the most likely way through them. Takes minutes. Memory does not grow
-// with the recordings but for a few bytes a comparison; features are in a temporary file. Errors:
-// recordings that cannot be read, a full disk; kUnavailable when ended by `on_progress`.
+// Finds where on one recording the frames of another were taken, by SIFT features of both, checked
+// against the geometry of two views, and the most likely path through the matches. It takes
+// minutes. Memory grows only by a few bytes for each comparison, because features are in a
+// temporary file. Errors: recordings that cannot be read, a full disk; kUnavailable if
+// `on_progress` ended it.
 [[nodiscard]] Result<Aligned> Align(const std::filesystem::path& teach,
                                     const std::filesystem::path& replay,
                                     const AlignOptions& options, const AlignProgress& on_progress);

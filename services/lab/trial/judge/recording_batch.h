@@ -7,12 +7,12 @@
 
 namespace trailcast::trial {
 
-// How far a batch is: called from one thread at a time.
+// Called with a batch's progress, from one thread at a time.
 using RecordingProgress = std::function<void(double share, int ended)>;
 
-// All pairs on `jobs` threads; each recording is taught once, whoever is replayed on it. The
-// outcomes come in the order of the pairs, one a pair, and are the same whatever the number of
-// threads. A pair whose files cannot be used has an error, which names it; the others go on.
+// Runs all pairs on `jobs` threads. Each recording is taught once for all its replays. The outcomes
+// are in the order of the pairs and do not depend on the number of threads. A pair whose files
+// cannot be used has an error that names the file; the others go on.
 [[nodiscard]] std::vector<Result<RecordingOutcome>> RunRecordingTrials(
     const std::vector<RecordingPair>& pairs, const RecordingOptions& options, int jobs,
     const RecordingProgress& on_progress);

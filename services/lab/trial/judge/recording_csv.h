@@ -9,14 +9,14 @@
 
 namespace trailcast::trial {
 
-// Header and one line a replay: shares for people first, then the counts that they are of.
+// Return the header and one line a replay: first shares for people, then the counts behind them.
 [[nodiscard]] std::string RecordingCsvHeader();
 [[nodiscard]] std::string RecordingCsvLine(const RecordingRow& row);
 [[nodiscard]] Result<void> WriteRecordingCsv(const std::vector<RecordingRow>& rows,
                                              const std::filesystem::path& file);
 // Errors name the file, the line, and what was expected there.
 [[nodiscard]] Result<std::vector<RecordingRow>> ReadRecordingCsv(const std::filesystem::path& file);
-// Whether its first line says that it is one.
+// Says whether the file's first line is that header.
 [[nodiscard]] bool IsRecordingCsv(const std::filesystem::path& file);
 
 }  // namespace trailcast::trial

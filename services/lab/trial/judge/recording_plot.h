@@ -7,8 +7,9 @@
 
 namespace trailcast::trial {
 
-// For each replay a strip: where on the taught recording it took itself to be, frame by frame, with
-// the truth beneath, on bands coloured by its state; of one alone also the turns that it asked for.
+// Draws a strip for each replay: its estimate of its place on the taught recording, frame by frame,
+// with the truth beneath, on bands coloured by its state. A single replay also gets the turns that
+// it asked for.
 [[nodiscard]] plot::Drawing DrawRecordings(const std::vector<RecordingOutcome>& outcomes);
 
 }  // namespace trailcast::trial

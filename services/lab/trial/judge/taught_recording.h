@@ -11,15 +11,15 @@
 namespace trailcast::trial {
 
 struct TaughtRecording {
-  // Why the recording cannot be a route; the route is of no use then.
+  // The route, or why the recording cannot be one.
   Result<TaughtRoute> route;
   std::vector<FrameSpan> spans;  // of its segments
   int frames = 0;
-  std::vector<std::string> visits;  // what has come of each follower that refreshed it; for people
+  std::vector<std::string> visits;  // outcomes of the followers that refreshed it, for people
 };
 
-// Teaches a route with a recording, as an agent would. `on_progress` gets the share done, 0..1. The
-// error is of a recording that cannot be read.
+// Teaches a route with a recording, as an agent would. `on_progress` gets the share that is done,
+// 0..1. The error is a recording that cannot be read.
 [[nodiscard]] Result<TaughtRecording> TeachRecording(
     const agent::RecordedRun& run, const agent::TeachOptions& options,
     const std::function<void(double share)>& on_progress);

@@ -7,8 +7,8 @@
 
 namespace trailcast::trial {
 
-// What is done to a recording before it is replayed, so that one recording tells more than one
-// thing. First those that change the order of its frames, then those that change its pictures.
+// The changes to a recording before it is replayed, so that one recording tests several things.
+// Those of the frames' order come first, then those of the pictures.
 enum class ChangeKind {
   kEvery,
   kSlower,
@@ -26,27 +26,26 @@ enum class ChangeKind {
 
 struct Change {
   ChangeKind kind = ChangeKind::kEvery;
-  double value = 0.0;  // what it means is the kind's: see ChangeHelp
+  double value = 0.0;  // its meaning depends on the kind; see ChangeHelp
 
   bool operator==(const Change&) const = default;
 };
 
-// In the order in which they are done.
+// Changes in the order in which they are made.
 using Disturbance = std::vector<Change>;
 
-// "every=3", "jpeg=30+gamma=0.6", "camera" (a value left out is the kind's own); "" or "none":
-// nothing is done. The error says which there are.
+// Parses "every=3", "jpeg=30+gamma=0.6" or "camera" (a missing value is the kind's own); "" or
+// "none" stand for no change. The error lists the kinds.
 [[nodiscard]] Result<Disturbance> ParseDisturbance(const std::string& text);
 
-// One line for each kind, for people.
+// Returns one line for each kind, for people.
 [[nodiscard]] std::string ChangeHelp();
 
-// Of how many frames in a row one is shown.
+// Returns n if every n-th frame is shown.
 [[nodiscard]] int StrideOf(const Disturbance& disturbance);
-// Whether features are still to that side of where they were taught to which the reference has
-// them.
+// Says whether features are still on the side of their taught place that the reference has.
 [[nodiscard]] bool KeepsSides(const Disturbance& disturbance);
-// Whether the driver still steers to where the pictures go.
+// Says whether the driver's steering still matches the pictures.
 [[nodiscard]] bool KeepsSteering(const Disturbance& disturbance);
 
 }  // namespace trailcast::trial

@@ -9,12 +9,13 @@
 
 namespace trailcast::trial {
 
-// In which order a recording of so many frames is shown, drawn from `seed` where there is something
-// to draw. kInvalidArgument if the recording is too short for what is to be done to it.
+// Returns the order in which a recording of so many frames is shown; `seed` draws what is random.
+// kInvalidArgument means that the recording is too short for the change.
 [[nodiscard]] Result<std::vector<Shown>> OrderOf(const Disturbance& disturbance, int frames,
                                                  std::uint64_t seed);
 
-// Whether frames come in the order in which they were recorded, some left out or shown again.
+// Says whether frames come in the order in which they were recorded, even if some are left out or
+// repeated.
 [[nodiscard]] bool GoesForward(const std::vector<Shown>& order);
 
 }  // namespace trailcast::trial

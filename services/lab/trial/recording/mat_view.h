@@ -6,11 +6,11 @@
 
 namespace trailcast::trial {
 
-// The picture as OpenCV sees it; the pixels stay the picture's.
+// Returns OpenCV's view of the picture, which keeps its pixels.
 [[nodiscard]] inline cv::Mat View(image::GrayImage& picture) {
   return {picture.height, picture.width, CV_8U, picture.pixels.data()};
 }
-// To be read only: OpenCV has no view that says so.
+// Only for reading, which OpenCV's views cannot express.
 [[nodiscard]] inline cv::Mat View(const image::GrayImage& picture) {
   return {picture.height, picture.width, CV_8U, const_cast<std::uint8_t*>(picture.pixels.data())};
 }

@@ -11,42 +11,42 @@
 
 namespace trailcast::trial {
 
-// What is wrong with a robot's odometry.
+// A fault of a robot's odometry.
 enum class OdometryFault {
-  kScale,   // each metre counts as so many
-  kTurn,    // each radian turned counts as so many
-  kDrift,   // turns by so many degrees a metre that nobody drives
-  kBias,    // turns by so many radians a second, driving or standing: a gyro's bias
-  kDelay,   // tells what was so many seconds ago
-  kSlips,   // a wheel spins for so many seconds: a way and a turn that nobody drives
-  kFrozen,  // tells of no motion for so many seconds
-  kJumps,   // is somewhere else all at once, so many times
+  kScale,   // each metre counts as this many
+  kTurn,    // each radian turned counts as this many
+  kDrift,   // it turns by so many degrees a metre too much
+  kBias,    // it turns by so many radians a second too much, driving or standing: a gyro's bias
+  kDelay,   // it is late by so many seconds
+  kSlips,   // a wheel spins for so many seconds: a distance and a turn that are not driven
+  kFrozen,  // it shows no motion for so many seconds
+  kJumps,   // it is suddenly somewhere else, so many times
 };
 
 struct OdometryChange {
   OdometryFault fault = OdometryFault::kScale;
-  double value = 0.0;  // as above
+  double value = 0.0;  // see above
 
   bool operator==(const OdometryChange&) const = default;
 };
 
 using OdometryNoise = std::vector<OdometryChange>;
 
-// "scale=1.1", "turn=0.8+drift=3", "slips" (a value left out is the kind's own); "" or "none":
-// nothing is wrong. The error says which there are.
+// Parses "scale=1.1", "turn=0.8+drift=3" or "slips" (a missing value is the kind's own); "" or
+// "none" stand for no fault. The error lists the kinds.
 [[nodiscard]] Result<OdometryNoise> ParseOdometryNoise(const std::string& text);
 
-// One line for each kind, for people.
+// Returns one line for each kind, for people.
 [[nodiscard]] std::string OdometryNoiseHelp();
 
 // Makes odometry wrong, pose by pose.
 class OdometrySpoiler {
  public:
-  // `drive_s`: about how long the robot drives; what happens at one moment does so between a
-  // quarter and two thirds of that, as `seed` draws it.
+  // The robot drives for about `drive_s`; an event at one moment comes between a quarter and two
+  // thirds of that, as `seed` draws it.
   OdometrySpoiler(OdometryNoise noise, double drive_s, std::uint64_t seed);
 
-  // What odometry tells at that time instead of the pose; times rise.
+  // Returns the odometry for a pose at that time; times must rise.
   [[nodiscard]] motion::Pose2 Tell(SensorTime stamp, const motion::Pose2& pose);
 
  private:
@@ -63,8 +63,8 @@ class OdometrySpoiler {
   bool begun_ = false;
   SensorTime first_{};
   motion::Pose2 last_;        // as it was given
-  motion::Pose2 told_;        // without the delay
-  std::deque<Told> waiting_;  // until the delay is over, after the one told last
+  motion::Pose2 told_;        // before the delay
+  std::deque<Told> waiting_;  // for the delay, after the last one told
 };
 
 }  // namespace trailcast::trial

@@ -13,25 +13,26 @@
 
 namespace trailcast::trial {
 
-// How many frames a recording (a folder of pictures or a video) has. Videos are read for it.
+// Returns how many frames a recording (a folder of pictures or a video) has. Videos have to be read
+// for that.
 [[nodiscard]] Result<int> CountFrames(const std::filesystem::path& recording);
 
-// A recording's frames in another order. An order that goes forward is read as it is asked for; any
-// other keeps in memory what it shows. For a frame that cannot be read the next one that can stands
-// in, so that frames keep their numbers.
+// A recording's frames in another order. A forward order is read on demand; any other keeps its
+// frames in memory. The next readable frame replaces one that cannot be read, so that frames keep
+// their numbers.
 class OrderedFrames {
  public:
   static constexpr std::size_t kMostBytes = std::size_t{1} << 30U;  // kept in memory
 
-  // kInvalidArgument if more would have to be kept.
+  // kInvalidArgument means that more would have to be kept.
   [[nodiscard]] static Result<OrderedFrames> Open(const std::filesystem::path& recording,
                                                   std::vector<Shown> order);
 
-  // The next one, or nothing at the end of the order. Errors as FrameSequence's.
+  // Returns the next frame, or nothing at the end of the order. Errors are FrameSequence's.
   [[nodiscard]] Result<std::optional<image::GrayImage>> Next();
 
   [[nodiscard]] const std::vector<Shown>& order() const { return order_; }
-  // As FrameSequence has it.
+  // See FrameSequence.
   [[nodiscard]] std::vector<std::string> TakeNews() { return frames_->TakeNews(); }
 
  private:
@@ -43,9 +44,9 @@ class OrderedFrames {
   std::unique_ptr<image::FrameSequence> frames_;
   std::vector<Shown> order_;
   std::size_t next_ = 0;                // in order_
-  int read_ = 0;                        // frames of the recording, with those left out
+  int read_ = 0;                        // frames of the recording, including those left out
   image::GrayImage current_;            // the last one read
-  std::vector<image::GrayImage> kept_;  // by frame; empty pictures where none is shown
+  std::vector<image::GrayImage> kept_;  // by frame; those that are not shown are empty
 };
 
 }  // namespace trailcast::trial

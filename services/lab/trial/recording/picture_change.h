@@ -8,15 +8,15 @@
 
 namespace trailcast::trial {
 
-// What a disturbance does to pictures.
+// Applies a disturbance to pictures.
 class PictureChanger {
  public:
-  // What is drawn (a smear's place, noise) is drawn from `seed`.
+  // `seed` draws what is random (a smear's place, noise).
   PictureChanger(Disturbance disturbance, std::uint64_t seed)
       : disturbance_(std::move(disturbance)), seed_(seed) {}
 
-  // `number` is the picture's place in the order shown: its noise is its own. All pictures of one
-  // size come out in one size. An error is one of the JPEG library.
+  // `number` is the picture's place in the order shown, on which its noise depends. Pictures of one
+  // size stay of one size. An error is the JPEG library's.
   [[nodiscard]] Result<image::GrayImage> Apply(image::GrayImage frame, int number) const;
 
  private:

@@ -13,28 +13,28 @@ struct Alignment {
   int replay_frame = 0;  // both counted from 0, in the order in which recordings are read
   int teach_frame = 0;
   int inliers = 0;  // features that agree on one camera motion between the two pictures
-  // How much further right they lie in the replay's picture, the median in pixels of the recording:
-  // positive asks for a turn to the right.
+  // The median of how much further right they are in the replay's picture, in pixels of the
+  // recording. A positive value asks for a turn to the right.
   double median_du_px = 0.0;
-  bool good = false;  // enough of them: the others say nothing
+  bool good = false;  // there are enough of them; others tell nothing
 };
 
-// In rising replay frames; not every frame need have one.
+// In rising replay frames, of which some may be missing.
 using Reference = std::vector<Alignment>;
 
-// CSV `replay_frame,teach_frame,inliers,median_du_px,good`. Errors name file, line and what was
-// expected there.
+// Reads CSV `replay_frame,teach_frame,inliers,median_du_px,good`. Errors name file, line and what
+// was expected there.
 [[nodiscard]] Result<Reference> ReadReference(const std::filesystem::path& file);
 [[nodiscard]] Result<void> WriteReference(const Reference& reference,
                                           const std::filesystem::path& file);
 
-// Of a recording on itself.
+// Returns the reference of a recording on itself.
 [[nodiscard]] Reference IdentityReference(int frames);
 
-// How the driver of a recording steered, by its frames; above 0 is to the right.
+// The steering of a recording's driver, by its frames; above 0 is to the right.
 using Steering = std::map<int, double>;
 
-// CSV `frame,steering`, more columns are not looked at.
+// Reads CSV `frame,steering`; further columns are ignored.
 [[nodiscard]] Result<Steering> ReadSteering(const std::filesystem::path& file);
 
 }  // namespace trailcast::trial

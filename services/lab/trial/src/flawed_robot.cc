@@ -5,7 +5,8 @@
 namespace trailcast::trial {
 namespace {
 
-// As the device of a ROS 2 robot does: odometry of a picture's moment may come a little later.
+// A ROS 2 robot's device waits in the same way, because odometry of a picture's moment may come a
+// little later.
 constexpr std::chrono::milliseconds kOdometryLate{60};
 constexpr std::chrono::seconds kSilence{20};
 

@@ -15,19 +15,19 @@
 namespace trailcast::trial {
 
 // A simulated robot as an agent gets it over a network: late, with stamps that may be off, and with
-// odometry that may jump, of which is made what a ROS 2 robot's device makes of it.
+// odometry that may jump. It treats these as a ROS 2 robot's device does.
 class FlawedRobot {
  public:
-  // After each step of the base, of which there are several to a picture that is late or lost.
+  // Called after each step of the base. There are several steps to a picture that is late or lost.
   using OnStep = std::function<void(SensorTime now)>;
 
   // Keeps a reference to `robot`.
   FlawedRobot(sim::SimulatedRobot& robot, const RobotFlaws& flaws, std::uint64_t seed);
 
-  // What the agent sees next, after it said `command`. Nothing: no picture came for 20 s.
+  // Returns what the agent sees next, after `command`, or nothing if no picture came for 20 s.
   [[nodiscard]] std::optional<agent::Observation> Next(const motion::VelocityCommand& command,
                                                        const OnStep& on_step);
-  // What befell the robot and its clocks since the last call, a line each for people.
+  // Returns lines for people about the robot and its clocks since the last call.
   [[nodiscard]] std::vector<std::string> TakeNews();
 
  private:
@@ -44,8 +44,8 @@ class FlawedRobot {
   agent::RobotElectronics electronics_;
   agent::SensedPoses poses_;
   motion::VelocityCommand told_;
-  std::optional<Frame> newest_;  // not yet given
-  Time unserved_since_;          // since when there has been one
+  std::optional<Frame> newest_;  // not yet returned
+  Time unserved_since_;          // since when there is one
   Time now_;
   std::vector<std::string> news_;
 };

@@ -14,7 +14,7 @@ namespace {
 using agent::RobotFault;
 using Kind = RobotFault::Kind;
 
-constexpr double kEarliest = 0.25;  // of the drive
+constexpr double kEarliest = 0.25;  // share of the drive
 constexpr double kLatest = 0.65;
 
 struct Drawing {
@@ -109,7 +109,8 @@ const std::vector<KnownFlaw>& KnownFlaws() {
   return all;
 }
 
-// Told of its place is one of two ways to have a camera ahead.
+// A camera ahead is drawn only once, although there are two flaws with one: with and without
+// telling the agent.
 void DrawAll(RobotFlaws& robot, Drawing& draw) {
   for (const KnownFlaw& each : KnownFlaws()) {
     if (each.flaw.name != "ahead-told") each.draw(robot, draw);

@@ -51,7 +51,7 @@ void PathJudge::NotePush() {
   last_m_.reset();
 }
 
-// The distance that the robot kept to for a share of the metres that it drove.
+// Returns the distance that the robot kept for a share of the metres that it drove.
 double PathJudge::WithinFor(double share) const {
   std::vector<Stretch> by_error = stretches_;
   std::sort(by_error.begin(), by_error.end(),

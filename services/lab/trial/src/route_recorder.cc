@@ -9,7 +9,7 @@ namespace trailcast::trial {
 RouteRecorder::RouteRecorder(const std::string& name, const std::string& camera,
                              const agent::TeachOptions& options)
     : intake_(options.intake), session_(options) {
-  // It needs no id that differs from others'.
+  // Its id need not differ from others'.
   taught_.info.key = {RouteId("00000000000000000000000000000000"), TeachingId(1)};
   taught_.info.name = name;
   taught_.info.scout = AgentId("scout");
@@ -40,7 +40,7 @@ void RouteRecorder::Take(const agent::TeachStep& step) {
     return;
   }
   Keep(step.finished, session_.frame());
-  // With odometry a segment is under way even where there is nothing to see.
+  // With odometry, a segment is under way even where there is nothing to see.
   const bool under_way = !step.too_few_features || has_odometry_;
   if (!began_ && under_way) began_ = session_.frame();
 }

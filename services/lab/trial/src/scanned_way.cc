@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kScan{100};
 constexpr double kScanner_m = 0.2;  // above the ground
-constexpr double kWidth_m = 0.4;    // of sim::RobotBody
-constexpr double kBefore_m = 1.0;   // what a robot stands before is as near
+constexpr double kWidth_m = 0.4;    // see sim::RobotBody
+constexpr double kBefore_m = 1.0;   // an obstacle before which a robot stops is this near
 constexpr double kStands_m = 1e-4;  // in a frame
 
 bool IsAhead(const Eigen::Vector2d& point) {

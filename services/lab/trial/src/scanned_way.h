@@ -15,24 +15,24 @@
 
 namespace trailcast::trial {
 
-// The body of a simulated robot, as its agent is told of it.
+// Returns the body of a simulated robot as its agent knows it.
 [[nodiscard]] agent::ObstacleOptions SimulatedBody();
 
-// A follower's scanner above its axle, without noise, and what lets the robot stand before what
-// that sees: as an agent's device has it, a scan ten times a second.
+// A follower's scanner above its axle, without noise, which stops the robot before obstacles as an
+// agent's device does, with ten scans a second.
 class ScannedWay {
  public:
   explicit ScannedWay(std::shared_ptr<const sim::World> world)
       : world_(std::move(world)), watch_(SimulatedBody(), true) {}
 
-  // Once a frame, wherever the robot is.
+  // Must be called once a frame, wherever the robot is.
   void Look(SensorTime now, const sim::Judge& robot);
 
-  // What may be driven of it.
+  // Returns the part of the command that is allowed.
   [[nodiscard]] motion::VelocityCommand Allow(const motion::VelocityCommand& wanted) {
     return watch_.Want(wanted);
   }
-  // What the robot waits for; meanwhile its session gets no frames.
+  // Returns what the robot waits for; meanwhile its session gets no frames.
   [[nodiscard]] const std::optional<std::string>& waits() const { return watch_.waits(); }
   [[nodiscard]] std::optional<std::vector<Eigen::Vector2d>> scanned() const {
     return watch_.scanned();
@@ -44,7 +44,7 @@ class ScannedWay {
   agent::ObstacleWatch watch_;
   SensorTime last_{-1};
   SensorTime scan_at_{0};
-  Eigen::Vector2d position_m_ = Eigen::Vector2d::Zero();  // true, in the last frame
+  Eigen::Vector2d position_m_ = Eigen::Vector2d::Zero();  // the true one in the last frame
   bool something_ahead_ = false;                          // by the last scan
   ScanFigures figures_;
 };

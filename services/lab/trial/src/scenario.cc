@@ -49,7 +49,7 @@ std::vector<Scenario> MakeScenarios() {
   Scenario& blocked =
       add("blocked", "with a scanner: a person stands in the way for ten seconds", "indoor");
   blocked.somebody_in_the_way = true;
-  blocked.somebody_ahead_m = 1.6;  // so that it is the scanner that lets the robot stand
+  blocked.somebody_ahead_m = 1.6;  // so that the scanner stops the robot
   blocked.scanner = true;
   Scenario& parked = add("parked", "with a scanner: a cart was left half on the path", "indoor");
   parked.parked_cart = true;

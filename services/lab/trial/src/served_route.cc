@@ -21,7 +21,7 @@ using Time = std::chrono::steady_clock::time_point;
 constexpr std::chrono::milliseconds kTurn{10};
 constexpr std::chrono::seconds kFetchPatience{60};
 
-// One turn of a program's loop. What the bus refuses is lost and asked for again.
+// Runs one turn of a program's loop. Messages that the bus refuses are lost and requested again.
 template <typename Protocol>
 void Turn(Protocol& protocol, exchange::RouteExchange& bus, Time now) {
   for (const exchange::Message& message : bus.Take(std::chrono::milliseconds(0))) {
@@ -30,7 +30,7 @@ void Turn(Protocol& protocol, exchange::RouteExchange& bus, Time now) {
   std::ignore = exchange::PublishAll(bus, protocol.Tick(now));
 }
 
-// The scout's sender with the whole route given to it.
+// Returns the scout's sender with the whole route.
 exchange::RouteSender MakeSender(const TaughtRoute& taught) {
   const auto read = [&taught](SegmentIndex index) -> Result<route::SegmentPiece> {
     return taught.pieces.at(index.value());
@@ -66,7 +66,7 @@ Result<TaughtRoute> FetchFromServer(const TaughtRoute& taught) {
 
   TaughtRoute fetched;
   for (Time now{}; now < Time{} + kFetchPatience && !fetcher.Complete(); now += kTurn) {
-    // Once the server has it all the scout goes: followers get it from the server.
+    // The scout leaves once the server has everything, and followers get the route from the server.
     if (!sender.AllReceipted()) Turn(sender, *scout, now);
     Turn(**keeper, *server, now);
     Turn(fetcher, *follower, now);

@@ -5,9 +5,9 @@
 
 namespace trailcast::trial {
 
-// The route as a follower gets it from a server: published by its scout's sender, made durable by
-// the server's keeper, fetched by a follower, all three talking over a bus in this process in their
-// own time. kUnavailable when it has not come through in a minute of that time.
+// Returns the route as a follower gets it from a server: its scout's sender publishes it, the
+// server's keeper makes it durable, and a follower fetches it, over a bus in this process with a
+// time of its own. kUnavailable means that it has not arrived within a minute of that time.
 [[nodiscard]] Result<TaughtRoute> FetchFromServer(const TaughtRoute& taught);
 
 }  // namespace trailcast::trial

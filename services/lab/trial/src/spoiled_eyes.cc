@@ -14,7 +14,7 @@ namespace {
 constexpr int kSpots = 24;
 constexpr double kLeastRadius = 0.04;  // of the picture's width
 constexpr double kMostRadius = 0.09;
-constexpr double kCovers = 0.9;  // of the light, in a spot's middle
+constexpr double kCovers = 0.9;  // share of the light, in a spot's middle
 constexpr double kGrain_grey = 25.0;
 
 void Mirror(image::GrayImage& picture) {

@@ -26,12 +26,13 @@ namespace {
 using agent::ReplayState;
 using agent::ReplayStep;
 
-constexpr double kPatience = 4.0;  // times what teaching took: going round in circles
+constexpr double kPatience = 4.0;  // times the duration of teaching; beyond it, the robot goes
+                                   // round in circles
 constexpr double kPatience_s = 60.0;
 constexpr int kProgressEvery = 15;   // frames
 constexpr double kTeachShare = 0.4;  // of a trial's work
-// Of one that is set down somewhere: how much of the path's end is no place to begin, how far it
-// goes on once it has found itself, and how far beside the path is no following.
+// These are for a follower that is set down anywhere: no start is in this last part of the path, it
+// drives this far once it has found itself, and further beside the path it is not following.
 constexpr double kLeftAtLeast_m = 2.0;
 constexpr double kGoesOn_m = 5.0;
 constexpr double kBeside_m = 1.0;
@@ -59,12 +60,12 @@ Result<sim::SimulatedRobotOptions> FollowerOptions(const TrialSetup& setup, cons
   return options;
 }
 
-// A place on it that a robot is told which stands elsewhere by about so much.
+// Draws the place that such a robot is told, which is off by about `sigma_m`.
 double DrawTold(double set_down_m, double sigma_m, std::uint64_t seed) {
   return std::max(kLeastTold_m, set_down_m + sigma_m * sim::Random(seed, "told").Normal());
 }
 
-// Somewhere along the taught path.
+// Draws a place along the taught path.
 double DrawStart(const TruePath& taught, std::uint64_t seed) {
   return sim::Random(seed, "set down")
       .Uniform(0.0, std::max(0.0, taught.length_m() - kLeftAtLeast_m));
@@ -72,7 +73,7 @@ double DrawStart(const TruePath& taught, std::uint64_t seed) {
 
 using SessionOpener = std::function<Result<agent::ReplaySession>()>;
 
-// A follower in closed loop, frame by frame, until it has ended one way or the other: lap after
+// A follower in closed loop, frame by frame, until it has ended in some way. It drives lap after
 // lap, each with a session of its own, from where the one before has left the robot.
 class Replaying {
  public:
@@ -98,7 +99,8 @@ class Replaying {
         odometry_(std::move(odometry)),
         limit_s_(laps * (kPatience * taught.duration_s + kPatience_s)) {}
 
-  // One frame. False when the replay is over; `state` and `reason` then say how.
+  // Does one frame. Returns false when the replay is over; `state` and `reason` then tell how it
+  // ended.
   Result<bool> Step() {
     if (push_m_ != 0.0 && judge_.driven_m() >= push_at_m_) Push();
     std::optional<agent::Observation> observation = See();
@@ -128,11 +130,11 @@ class Replaying {
     return true;
   }
 
-  // Of all laps.
+  // Returns the share of all laps.
   [[nodiscard]] double progress() const {
     return (static_cast<double>(lap_ends_m_.size()) + last_.progress) / laps_;
   }
-  // Everything of the row that the replay decides.
+  // Fills in everything of the row that the replay decides.
   void Fill(TrialRow& row) const {
     row.verdict = judge_.verdict();
     row.lap_ends_m = lap_ends_m_;
@@ -154,7 +156,7 @@ class Replaying {
   [[nodiscard]] Result<void> EndLog() { return diagnosis_.End(state_, reason_); }
 
  private:
-  // Before what its scanner sees in its way.
+  // Says whether it waits for an obstacle that its scanner sees.
   bool Waits() {
     if (!way_) return false;
     way_->Look(now_, truth_);
@@ -168,7 +170,8 @@ class Replaying {
     passing_ = last_.passing;
     diagnosis_.Note("passing", passing_.empty() ? "nothing stands on the path" : passing_);
   }
-  // Set down somewhere, it sets off: where it takes itself to be is compared with where it is.
+  // Compares where a robot that was set down anywhere believes itself to be, as it sets off, with
+  // where it is.
   void NoteFound() {
     if (last_.state != ReplayState::kFollowing) return;
     const double at_m =
@@ -181,7 +184,7 @@ class Replaying {
     diagnosis_.Note("found", fmt::format("{:+.2f} m from where it is", found_->off_m));
     found_after_m_ = judge_.driven_m();
   }
-  // What the agent sees next; the robot drives until then as it was told last.
+  // Returns the agent's next observation; until then the robot drives by its last command.
   std::optional<agent::Observation> See() {
     if (!flawed_) {
       sim::Observation seen = robot_.Step(last_.command);
@@ -257,38 +260,38 @@ class Replaying {
   }
 
   sim::SimulatedRobot& robot_;
-  std::optional<FlawedRobot> flawed_;  // drives robot_
+  std::optional<FlawedRobot> flawed_;  // it drives robot_
   sim::Judge truth_;
   PathJudge judge_;
   agent::ReplaySession session_;
   SessionOpener open_next_;
   int laps_;
-  std::vector<double> lap_ends_m_;  // how far from the taught end each lap ended
+  std::vector<double> lap_ends_m_;  // distance from the taught end, for each lap
   agent::Diagnosis diagnosis_;
   double push_at_m_;
-  double push_m_;                     // 0: none, or done
-  std::optional<double> set_down_m_;  // along the path, and it is told no place
+  double push_m_;                     // 0 if there is none, or it is done
+  std::optional<double> set_down_m_;  // along the path; the robot is told no place
   std::optional<FoundFigures> found_;
-  double found_after_m_ = 0.0;     // driven
-  std::optional<ScannedWay> way_;  // of one with a scanner
+  double found_after_m_ = 0.0;     // distance driven
+  std::optional<ScannedWay> way_;  // for a follower with a scanner
   Spoiled spoiled_;
   std::uint64_t seed_;
-  std::optional<OdometrySpoiler> odometry_;  // of one that has odometry
+  std::optional<OdometrySpoiler> odometry_;  // for a follower with odometry
   bool waits_ = false;
-  std::string passing_;  // as it says it
+  std::string passing_;  // as it reports it
   double limit_s_;
   StandstillWatch standstill_;
-  ReplayStep last_;  // a first Step of the robot with no command is a look at the start
+  ReplayStep last_;  // a first Step without a command is a look at the start
   SensorTime now_{};
-  double off_m_ = 0.0;  // the taught path
+  double off_m_ = 0.0;  // from the taught path
   double cpu_ms_ = 0.0;
   int frames_ = 0;
-  bool arrived_ = false;  // or found itself, if that is what it was to do
+  bool arrived_ = false;  // or found itself, if that was its task
   std::string state_;
   std::string reason_;
 };
 
-// What a robot is judged by that drives from its end to its beginning.
+// Returns the reference for a robot that drives from the route's end to its beginning.
 Taught TurnedRound(const Taught& taught) {
   Taught turned;
   const auto& points_m = taught.path.points_m();

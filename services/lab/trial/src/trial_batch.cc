@@ -12,7 +12,7 @@
 namespace trailcast::trial {
 namespace {
 
-// What the threads share: which trial is next, what has come of the others.
+// The threads' common state: the next trial, and the outcomes.
 class Batch {
  public:
   Batch(const TrialSetup& setup, const TrialOptions& options, const BatchProgress& on_progress)
@@ -23,7 +23,7 @@ class Batch {
         outcomes_(setup.cases.size() * static_cast<std::size_t>(options.trials)),
         shares_(outcomes_.size(), 0.0) {}
 
-  // A thread's work: trials, until none is left or one failed to run at all.
+  // Does trials until none is left or one failed to run at all; each thread runs this.
   void Work() {
     while (!broken_) {
       const std::size_t index = next_.fetch_add(1);
@@ -44,7 +44,7 @@ class Batch {
   Result<std::vector<TrialOutcome>> Take() {
     std::vector<TrialOutcome> outcomes;
     for (std::optional<Result<std::vector<TrialOutcome>>>& outcome : outcomes_) {
-      if (!outcome) continue;  // never begun, after another one's error
+      if (!outcome) continue;  // it never began, after another one's error
       if (!*outcome) return tl::unexpected(outcome->error());
       std::move((*outcome)->begin(), (*outcome)->end(), std::back_inserter(outcomes));
     }
@@ -74,7 +74,7 @@ class Batch {
   Teachings teachings_;
   std::atomic<std::size_t> next_{0};
   std::atomic<bool> broken_{false};
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards everything below
   std::vector<std::optional<Result<std::vector<TrialOutcome>>>> outcomes_;
   std::vector<double> shares_;
   int ended_ = 0;

@@ -25,7 +25,7 @@ std::filesystem::path TrialLogName(const TrialSetup& setup, const TrialCase& tri
 Result<agent::Diagnosis> OpenTrialLog(const TrialSetup& setup, const TrialCase& trial_case,
                                       const TrialOptions& options, int trial, int visit,
                                       const route::RouteInfo& route) {
-  // Nobody waits for a simulated robot.
+  // The log may take its time, because nobody waits for a simulated robot.
   agent::DiagnosisOptions files{.patient = true, .picture_every_s = 0.0};
   const std::filesystem::path folder = options.log_folder;
   if (!folder.empty()) {

@@ -10,13 +10,13 @@
 
 namespace trailcast::trial {
 
-// "indoor-default-webcam-wide-trial3.mcap", with the push where there is one.
+// Returns "indoor-default-webcam-wide-trial3.mcap", with the push if there is one.
 [[nodiscard]] std::filesystem::path TrialLogName(const TrialSetup& setup,
                                                  const TrialCase& trial_case, int trial,
                                                  int visit = 0);
 
-// The log of one trial, begun, in the folder that the options name, which is made; without such a
-// folder nothing is written.
+// Begins the log of one trial in the folder that the options name, which is made. Without a folder,
+// nothing is written.
 [[nodiscard]] Result<agent::Diagnosis> OpenTrialLog(const TrialSetup& setup,
                                                     const TrialCase& trial_case,
                                                     const TrialOptions& options, int trial,

@@ -7,7 +7,7 @@
 namespace trailcast::trial {
 namespace {
 
-// Accuracy, repeatability and largest final error, as the paper gives them.
+// Returns accuracy, repeatability and largest final error in the paper's form.
 std::string Three(double accuracy_m, double repeatability_m, double largest_m) {
   return fmt::format("{:.2f} / {:.2f}, {:.2f}", accuracy_m, repeatability_m, largest_m);
 }

@@ -14,18 +14,18 @@ namespace trailcast::trial {
 namespace {
 
 constexpr double kMargin_m = 1.5;
-constexpr int kPaleness = 150;      // of 255: how far towards white the world is drawn
+constexpr int kPaleness = 150;      // of 255: how much paler the world is drawn
 constexpr double kPlanCut_m = 1.6;  // above the floor
-// Uneven, rough, very rough.
+// These are for uneven, rough and very rough ground.
 constexpr std::array<image::Color, 3> kBandColors{
     {{250, 225, 170}, {245, 185, 120}, {235, 140, 100}}};
-constexpr std::size_t kMaxLegend = 12;  // replays, or cases, named one by one
+constexpr std::size_t kMaxLegend = 12;  // replays or cases that are named one by one
 
 std::uint8_t Pale(std::uint8_t value) {
   return static_cast<std::uint8_t>(value + (255 - value) * kPaleness / 255);
 }
 
-// The pixels of `plan` that show `area`; white where the plan ends.
+// Returns the pixels of `plan` that show `area`, white beyond the plan.
 image::RgbImage Crop(const sim::PlanView& plan, const plot::PlanArea& area) {
   image::RgbImage crop;
   crop.width = std::max(1, static_cast<int>(area.size_m().x() / plan.metres_per_pixel));
@@ -52,7 +52,7 @@ image::RgbImage Crop(const sim::PlanView& plan, const plot::PlanArea& area) {
   return crop;
 }
 
-// The part of a path that lies so far along it.
+// Returns the part of a path between two distances along it.
 std::vector<Eigen::Vector2d> Between(const TruePath& path, double from_m, double to_m) {
   std::vector<Eigen::Vector2d> part;
   double along_m = 0.0;

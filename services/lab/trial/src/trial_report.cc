@@ -33,8 +33,8 @@ std::string SummaryLine(const char* what, const std::string& ours, const std::st
 TrialSummary Summarize(const std::vector<TrialRow>& rows) {
   TrialSummary summary;
   if (rows.empty()) return summary;
-  // The ends differ by centimetres from trial to trial (each teaches anew), so positions are
-  // compared as offsets from the end that was taught.
+  // Each trial teaches anew, so the ends differ by centimetres. Positions are therefore compared as
+  // offsets from the taught end.
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const TrialRow& row : rows) mean += row.verdict.final_m - row.end_m;
   mean /= static_cast<double>(rows.size());
@@ -123,7 +123,7 @@ std::string RowTable(const std::vector<TrialRow>& rows) {
   return text;
 }
 
-// Several cases: a line each, the paper's own figures under those that it has.
+// Writes a line for each case, with the paper's own figures below those that it has.
 std::string CaseTable(const std::vector<std::vector<TrialRow>>& cases) {
   std::string text = fmt::format("{:<36}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>7}\n", "case", "arrived",
                                  "accuracy", "repeat", "largest", "mean m", "max m", "found");
@@ -142,7 +142,8 @@ std::string CaseTable(const std::vector<std::vector<TrialRow>>& cases) {
   return text;
 }
 
-// Of followers that were set down somewhere: the end of the path is no place to judge them by.
+// Writes a table of followers that were set down anywhere, for which the end of the path means
+// nothing.
 std::string FoundTable(const std::vector<TrialRow>& rows) {
   std::vector<double> off_m;
   std::vector<double> after_s;
@@ -175,7 +176,7 @@ std::string FoundTable(const std::vector<TrialRow>& rows) {
   return text;
 }
 
-// One visit after the other, over all teachings.
+// Writes one visit after the other, over all teachings.
 std::string VisitTable(const std::vector<TrialRow>& rows) {
   int last = 0;
   for (const TrialRow& row : rows) last = std::max(last, row.visit);

@@ -17,7 +17,7 @@ namespace trailcast::trial {
 namespace {
 
 constexpr double kLapGap_m = 1.0;
-// The longest segment of the printed methods, as it follows from the paper's figures
+// The longest segment of the printed methods, which follows from the paper's figures
 // (docs/explanation/following.md).
 constexpr double kPrintedSegment_m = 0.4;
 
@@ -31,7 +31,7 @@ Result<std::vector<agent::ReplayMethod>> FindMethods(const std::vector<std::stri
   return methods;
 }
 
-// Every method with every pair of cameras, every push and every flaw.
+// Combines every method with every pair of cameras, every push and every flaw.
 Result<std::vector<TrialCase>> MakeCases(const Scenario& scenario, const TrialOptions& options) {
   const auto methods = FindMethods(options.methods);
   if (!methods) return tl::unexpected(methods.error());
@@ -82,7 +82,7 @@ Result<sim::Actors> DrawActors(const Scenario& scenario, const sim::Place& place
   return actors;
 }
 
-// One robot has one camera, and where the paper measured nobody was about.
+// One robot has one camera, and nobody was about where the paper measured.
 Result<void> TakeSameRobot(Scenario& scenario, TrialSetup& setup) {
   for (const TrialCase& each : setup.cases) {
     if (each.scout_camera.name == each.follower_camera.name) continue;
@@ -96,7 +96,7 @@ Result<void> TakeSameRobot(Scenario& scenario, TrialSetup& setup) {
   return {};
 }
 
-// A world and a path of the user's own, or the scenario's place.
+// Opens the user's own world and path, or the scenario's place.
 Result<void> OpenScene(const Scenario& scenario, const TrialOptions& options, TrialSetup& setup) {
   sim::PlaceOptions where = options.place;
   if (where.world.empty()) where.world = scenario.place;

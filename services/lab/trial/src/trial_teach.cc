@@ -25,7 +25,7 @@ Result<sim::SimulatedRobotOptions> ScoutOptions(const TrialSetup& setup,
   options.start = sim::StartPose(setup.path);
   options.start_z_max_m = setup.path.z_max_m;
   options.disturbances = sim::Disturbances::ForScout();
-  options.disturbances.slip = setup.follower.slip;  // it is the same ground
+  options.disturbances.slip = setup.follower.slip;  // because it is the same ground
   options.seed = seed;
   auto actors = setup.actors(sim::Role::kScout, seed);
   if (!actors) return tl::unexpected(actors.error());
@@ -47,7 +47,7 @@ class Teaching {
     }
   }
 
-  // One frame. False when the drive is over.
+  // Does one frame. Returns false when the drive is over.
   Result<bool> Step() {
     sim::Observation frame = robot_.Step(command_);
     taught_.path.Add(motion::Position(truth_.true_pose()));
@@ -73,7 +73,7 @@ class Teaching {
 
   [[nodiscard]] double time_s() const { return taught_.duration_s; }
   [[nodiscard]] const motion::Pose2& true_pose() const { return truth_.true_pose(); }
-  // Of the path, by the nearest place on it.
+  // Returns the share of the path up to the nearest place on it.
   [[nodiscard]] double share() const {
     return sim::Nearest(driver_.path(), motion::Position(true_pose())).along_m /
            sim::Length(driver_.path());

@@ -20,16 +20,17 @@
 namespace trailcast::trial {
 namespace {
 
-// How far from the place last held a long recording's pictures are compared, in taught pictures.
+// A long recording's pictures are compared so far from the last place held, counted in taught
+// pictures.
 constexpr int kBack = 6;
 constexpr int kOn = 14;
-constexpr int kLostAfter = 4;     // pictures in a row that agree with nothing near
-constexpr int kSearchStride = 4;  // of the taught pictures, when all over the route
+constexpr int kLostAfter = 4;     // consecutive pictures that match nothing near
+constexpr int kSearchStride = 4;  // step between the taught pictures in a search of the whole route
 
 Error Ended() { return {ErrorCode::kUnavailable, "interrupted"}; }
 
-// Calls `use` with every so many frames of a recording; for one that cannot be read the next one
-// stands in. What was found out of the pictures, for people.
+// Calls `use` with every n-th frame of a recording. The next readable frame replaces one that
+// cannot be read. Returns lines for people about the pictures.
 Result<std::vector<std::string>> ForEvery(
     const std::filesystem::path& recording, int every,
     const std::function<Result<void>(const image::GrayImage&, int)>& use) {
@@ -50,7 +51,8 @@ struct Described {
   FeatureFile features;
   std::vector<std::string> news;
 };
-// A recording, after a first look for what of it is the camera's own.
+// Describes a recording, after a first pass that finds the parts of its pictures that show the
+// camera's own robot.
 Result<Described> Describe(const std::filesystem::path& recording, int every, const char* doing,
                            const AlignProgress& on_progress) {
   const auto count = CountFrames(recording);
@@ -114,7 +116,7 @@ class Aligner {
     return {};
   }
 
-  // Adds candidates from all over the route, and all beside the best of them.
+  // Adds candidates from all over the route, and everything beside the best of them.
   Result<void> SearchAll(const SceneFeatures& scene, std::vector<Candidate>& candidates) {
     auto far = Match(scene, Stretch(0, taught(), kSearchStride));
     if (!far) return tl::unexpected(far.error());
@@ -141,7 +143,7 @@ class Aligner {
     return most;
   }
 
-  // Compares with those, on all threads.
+  // Compares with these pictures, on all threads.
   Result<std::vector<Candidate>> Match(const SceneFeatures& scene, const std::vector<int>& with) {
     std::vector<Candidate> candidates(with.size());
     std::atomic<std::size_t> next{0};
@@ -157,7 +159,7 @@ class Aligner {
         }
         return {};
       });
-      if (!end) next = with.size();  // the others end, too
+      if (!end) next = with.size();  // this ends the others, too
     };
     {
       std::vector<std::jthread> threads;
@@ -170,7 +172,7 @@ class Aligner {
     return candidates;
   }
 
-  // The best way, and how far aside features lie on it.
+  // Returns the best path, and how far aside features are along it.
   Result<Reference> Tell() const {
     Reference reference;
     const std::vector<Candidate> trace = path_.Trace();
@@ -193,7 +195,7 @@ class Aligner {
   const AlignOptions& options_;
   AlignmentPath path_;
   bool path_begun_ = false;
-  int unheld_ = 0;  // pictures in a row that nothing near agreed with
+  int unheld_ = 0;  // consecutive pictures that matched nothing near
 };
 
 }  // namespace

@@ -5,40 +5,41 @@
 
 namespace trailcast::trial {
 
-// A taught picture that a replayed one was compared with.
+// A taught picture with which a replayed one was compared.
 struct Candidate {
-  int teach = 0;  // which of the taught pictures
+  int teach = 0;  // index of the taught picture
   int inliers = 0;
 };
 
-// How robots move along a route between two replayed pictures, in taught pictures: on, by about as
-// many, faster or slower; now and then a little back; anything else is a jump (a lap's end, a cut).
+// How robots move along a route between two replayed pictures, counted in taught pictures: ahead,
+// by about as many, faster or slower, and now and then a little back. Anything else is a jump (a
+// lap's end, a cut).
 struct PathCosts {
   double per_step = 0.05;  // for each taught picture more or less than one
-  int quick_steps = 3;     // as many are nothing unusual; each more than these:
+  int quick_steps = 3;     // this many are usual; each further one costs:
   double per_quick_step = 0.3;
   double per_back_step = 1.5;
   double jump = 8.0;  // the most that any motion costs
 };
 
-// The most likely way through the candidates of one replayed picture after the other (Viterbi): the
-// sum of log2(1 + inliers), less what the motion between them costs. All that were compared may be
-// candidates, or those that were thought worth it.
+// The most likely path through the candidates of consecutive replayed pictures (Viterbi). It
+// maximises the sum of log2(1 + inliers) less the cost of the motion in between. Candidates may be
+// all compared pictures, or a selection.
 class AlignmentPath {
  public:
   explicit AlignmentPath(const PathCosts& costs = {}) : costs_(costs) {}
 
-  // The next replayed picture's; one at least.
+  // Adds the next replayed picture's candidates, of which there is at least one.
   void Add(const std::vector<Candidate>& candidates);
-  // Which taught picture the best way so far ends at. Something was added before.
+  // Returns the taught picture at the end of the best path so far, after something was added.
   [[nodiscard]] const Candidate& Best() const;
-  // The best way, one candidate for each replayed picture.
+  // Returns the best path, with one candidate for each replayed picture.
   [[nodiscard]] std::vector<Candidate> Trace() const;
 
  private:
   struct Step {
     Candidate candidate;
-    double score = 0.0;      // of the best way to here
+    double score = 0.0;      // of the best path up to here
     std::size_t before = 0;  // in the row before
   };
   using Row = std::vector<Step>;

@@ -7,10 +7,10 @@
 namespace trailcast::trial {
 namespace {
 
-constexpr int kFewestFrames = 12;   // of fewer, much looks alike by chance
-constexpr int kStill = 12;          // grey levels: less is noise
-constexpr double kMargin = 0.02;    // of the width, about what is still
-constexpr double kLeastSeen = 0.2;  // of the picture: else the robot stood, or it was dark
+constexpr int kFewestFrames = 12;   // with fewer, much stays the same by chance
+constexpr int kStill = 12;          // grey levels; a smaller change is noise
+constexpr double kMargin = 0.02;    // of the width, around what is still
+constexpr double kLeastSeen = 0.2;  // of the picture; otherwise the robot stood, or it was dark
 
 }  // namespace
 
@@ -32,7 +32,7 @@ image::GrayImage CameraMask::Find() const {
   cv::Mat seen = View(mask);
   cv::subtract(View(brightest_), View(darkest_), seen);
   cv::threshold(seen, seen, kStill, 255, cv::THRESH_BINARY);
-  // Single pixels that happened to stay as they were are no camera.
+  // Single pixels that happened to stay the same do not belong to the robot.
   const int margin = std::max(1, static_cast<int>(kMargin * mask.width));
   const cv::Mat around =
       cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * margin + 1, 2 * margin + 1});

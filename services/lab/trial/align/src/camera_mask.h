@@ -5,14 +5,14 @@
 
 namespace trailcast::trial {
 
-// Finds what of a recording's pictures never changes: a fisheye's black surround, the robot's own
-// hood. Features there would agree with every picture.
+// Finds the parts of a recording's pictures that never change: a fisheye's black surround, the
+// robot's own hood. Features there would match every picture.
 class CameraMask {
  public:
   // All frames have one size.
   void Add(const image::GrayImage& frame);
-  // 255 where the scene is seen, 0 where the camera sees itself, with a margin. Nothing if
-  // too few frames were added to tell, or hardly anything changes at all.
+  // Returns 255 where the scene is visible, and 0, with a margin, where the camera sees its own
+  // robot. It is empty if too few frames were added, or hardly anything changes.
   [[nodiscard]] image::GrayImage Find() const;
 
  private:

@@ -13,7 +13,8 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<SceneFeature>);
 
-// Whether all of it was done: the kernel may do a part at a time.
+// Repeats a call until everything is done, because the kernel may do a part at a time. Returns
+// false if it fails.
 template <typename Call>
 bool All(std::size_t size, const Call& call) {
   std::size_t done = 0;

@@ -10,16 +10,16 @@
 
 namespace trailcast::trial {
 
-// The features of many pictures, in a temporary file that nobody else sees and that goes with this:
-// those of an hour's drive are gigabytes.
+// Keeps the features of many pictures in a private temporary file, which the destructor removes.
+// The features of an hour's drive are gigabytes.
 class FeatureFile {
  public:
   [[nodiscard]] static Result<FeatureFile> Make();
 
-  // kUnavailable if the disk is full.
+  // kUnavailable means that the disk is full.
   [[nodiscard]] Result<void> Append(const SceneFeatures& scene);
   [[nodiscard]] std::size_t size() const { return places_.size(); }
-  // Threads may read at a time, while none appends.
+  // Several threads may read at once while none appends.
   [[nodiscard]] Result<SceneFeatures> Read(std::size_t index) const;
 
  private:

@@ -11,9 +11,9 @@
 namespace trailcast::trial {
 namespace {
 
-constexpr double kWidth_px = 480.0;  // to which pictures are scaled
+constexpr double kWidth_px = 480.0;  // pictures are scaled to this
 constexpr int kMostFeatures = 400;
-// Below SIFT's own 0.04: dim halls and worn floors have little contrast.
+// This is below SIFT's own 0.04, because dim halls and worn floors have little contrast.
 constexpr double kContrast = 0.02;
 constexpr double kEdge = 10.0;  // SIFT's own
 

@@ -8,23 +8,24 @@
 
 namespace trailcast::trial {
 
-// A place in a picture that can be found again in another picture of the same scene.
+// A feature that can be found again in another picture of the same scene.
 struct SceneFeature {
   float x_px = 0.0F;  // in the recording's own pixels
   float y_px = 0.0F;
-  // RootSIFT (Arandjelovic and Zisserman 2012): the root of each share of the SIFT histogram, in
-  // 512ths.
+  // The RootSIFT descriptor (Arandjelovic and Zisserman 2012): the root of each share of the SIFT
+  // histogram, in 512ths.
   std::array<std::uint8_t, 128> descriptor{};
 };
 
-// Of one picture, the strongest first.
+// The features of one picture, the strongest first.
 struct SceneFeatures {
   int width_px = 0;  // of the picture
   std::vector<SceneFeature> features;
 };
 
-// Small pictures are magnified for it. `camera_mask` is 0 where the camera sees itself, of the
-// picture's size; empty: nowhere. For a computer, not for a robot: a tenth of a second.
+// Finds features; small pictures are magnified first. `camera_mask` has the picture's size and is 0
+// where the camera sees its own robot; it may be empty. This takes a tenth of a second, which suits
+// a computer but no robot.
 [[nodiscard]] SceneFeatures FindSceneFeatures(const image::GrayImage& picture,
                                               const image::GrayImage& camera_mask);
 

@@ -15,10 +15,11 @@ namespace {
 using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;  // in teach, in replay
 
-constexpr float kRatio = 0.85F;  // of distances: best to second best
+constexpr float kRatio = 0.85F;  // of the best to the second-best distance
 constexpr std::size_t kFewestPairs = 8;
-constexpr std::size_t kManyPairs = 30;  // more than pictures of different places have by chance
-// Of the picture's width: how far a feature may be from where the camera's motion has it.
+constexpr std::size_t kManyPairs = 30;  // more than pictures of different places share by chance
+// The tolerance, as a share of the picture's width, between a feature and its place by the camera's
+// motion.
 constexpr double kOff = 0.004;
 constexpr double kSure = 0.999;
 constexpr int kTrials = 1000;
@@ -35,7 +36,7 @@ Matrix Descriptors(const SceneFeatures& scene) {
   return rows;
 }
 
-// For each row the column that is most like it, or -1 where the second one is nearly as much.
+// Returns for each row the most similar column, or -1 if the second one is almost as similar.
 std::vector<Eigen::Index> ClearBest(const Matrix& likeness) {
   std::vector<Eigen::Index> best(static_cast<std::size_t>(likeness.rows()), -1);
   for (Eigen::Index row = 0; row < likeness.rows(); ++row) {
@@ -52,7 +53,7 @@ std::vector<Eigen::Index> ClearBest(const Matrix& likeness) {
         second = std::max(second, value);
       }
     }
-    // Of unit vectors, the squared distance is 2 - 2 likeness.
+    // The squared distance of unit vectors is 2 - 2 likeness.
     if (1.0F - first <= kRatio * kRatio * (1.0F - second)) best[static_cast<std::size_t>(row)] = at;
   }
   return best;
@@ -77,9 +78,9 @@ std::ptrdiff_t Kept(const std::vector<std::uint8_t>& agrees) {
   return std::count_if(agrees.begin(), agrees.end(), [](std::uint8_t each) { return each != 0; });
 }
 
-// Which pairs agree on one motion of the camera. A fundamental matrix is any motion's; but of
-// pictures taken at one point (a robot that stood, or turned on the spot) it cannot be told, and a
-// homography is what they agree on.
+// Says which pairs agree on one motion of the camera. A fundamental matrix holds for any motion,
+// but pictures taken at one point (by a robot that stood, or turned on the spot) do not determine
+// it; these agree on a homography.
 std::vector<std::uint8_t> Agreeing(const std::vector<cv::Point2d>& from,
                                    const std::vector<cv::Point2d>& to, double off_px) {
   std::vector<std::uint8_t> moved;

@@ -17,12 +17,13 @@
 namespace trailcast::trial {
 namespace {
 
-// Of a pair's work, done when it is taught, and when it is known what the route itself asks for.
-constexpr double kTaughtShare = 0.1;  // and not yet visited
+// The share of a pair's work that is done once its route is taught, and once the route's own turns
+// are known.
+constexpr double kTaughtShare = 0.1;  // before the visits
 constexpr double kTeachShare = 0.2;
 constexpr double kOwnShare = 0.5;
 
-// What the threads share: which pair is next, what was taught, what has come of the others.
+// The threads' common state: the next pair, the routes taught, and the outcomes.
 class Batch {
  public:
   Batch(const std::vector<RecordingPair>& pairs, const RecordingOptions& options,
@@ -33,7 +34,7 @@ class Batch {
         outcomes_(pairs.size()),
         shares_(pairs.size(), 0.0) {}
 
-  // A thread's work: pairs, until none is left.
+  // Does pairs until none is left; each thread runs this.
   void Work() {
     for (;;) {
       const std::size_t index = next_.fetch_add(1);
@@ -46,7 +47,7 @@ class Batch {
     }
   }
 
-  // Once all threads have ended.
+  // Only after all threads have ended.
   std::vector<Result<RecordingOutcome>> Take() {
     std::vector<Result<RecordingOutcome>> taken;
     for (std::optional<Result<RecordingOutcome>>& outcome : outcomes_) {
@@ -56,7 +57,7 @@ class Batch {
   }
 
  private:
-  // What all replays on one recording share; each part is made by whoever needs it first.
+  // The results that all replays on one recording share. Whoever needs one first makes it.
   struct Teaching {
     std::once_flag taught_once;
     Result<TaughtRecording> taught = Fail(ErrorCode::kInternal, "not taught yet");
@@ -110,7 +111,7 @@ class Batch {
                                  .map(OwnTurns);
   }
 
-  // Tells a part of a pair's work as the shares from `from` to `to` of it.
+  // Reports a part of a pair's work as its shares from `from` to `to`.
   std::function<void(double)> Telling(std::size_t index, double from, double to) {
     return [this, index, from, to](double share) {
       const std::scoped_lock lock(mutex_);
@@ -118,7 +119,7 @@ class Batch {
     };
   }
 
-  // With the lock held.
+  // The caller must hold the lock.
   void Tell(std::size_t index, double share) {
     shares_[index] = share;
     double sum = 0.0;
@@ -130,8 +131,8 @@ class Batch {
   const RecordingOptions& options_;
   const RecordingProgress& on_progress_;
   std::atomic<std::size_t> next_{0};
-  std::mutex mutex_;  // guards what follows
-  // By the recording, its odometry and frame rate, and who visits.
+  std::mutex mutex_;  // guards everything below
+  // By the recording, its odometry and frame rate, and its visitors.
   std::map<
       std::tuple<std::filesystem::path, std::filesystem::path, std::optional<double>, std::string>,
       Teaching>

@@ -13,7 +13,7 @@
 namespace trailcast::trial {
 namespace {
 
-// The counts, by their columns' names.
+// The counts by their columns' names.
 constexpr std::pair<const char*, int Verdict::*> kCounts[] = {
     {"frames", &Verdict::frames},       {"following", &Verdict::following},
     {"lost", &Verdict::lost},           {"aligned", &Verdict::aligned},

@@ -11,7 +11,7 @@ namespace {
 using Rows = std::vector<RecordingRow>;
 using ShareOf = std::optional<double> RecordingShares::*;
 
-// One line of what is asked of recordings: which replays it is about, and what it says of them.
+// One measure of recordings: the replays that it covers, and its value for them.
 struct Measure {
   std::string name;
   std::string goal;
@@ -48,7 +48,7 @@ Verdict Sum(const Rows& rows) {
   return sum;
 }
 
-// All frames of all replays together.
+// Returns the share over all frames of all replays together.
 std::string Pooled(const Rows& rows, ShareOf share) {
   const auto value = SharesOf(Sum(rows)).*share;
   return value ? fmt::format("{:.3f}", *value) : "";
@@ -107,7 +107,7 @@ std::vector<Measure> PlainMeasures() {
   };
 }
 
-// Those above, and one for each disturbance that there is.
+// Returns the measures above, and one for each disturbance in the rows.
 std::vector<Measure> Measures(const Rows& rows) {
   std::vector<Measure> measures = PlainMeasures();
   std::vector<std::string> told{"none"};

@@ -20,7 +20,7 @@ constexpr int kWidth_px = 1200;
 constexpr double kLeft_px = 62.0;
 constexpr double kRight_px = 22.0;
 constexpr double kHead_px = 40.0;
-constexpr double kGap_px = 30.0;   // above a strip: its title
+constexpr double kGap_px = 30.0;   // for the title above a strip
 constexpr double kAxis_px = 46.0;  // below a replay's strips
 constexpr double kStripHeight_px = 150.0;
 constexpr Color kTruth{150, 150, 150};
@@ -74,7 +74,7 @@ std::string TitleOf(const RecordingRow& row) {
   return title;
 }
 
-// The truth is known of some frames only: between two of them it is drawn as a line.
+// The truth is known for some frames only, and drawn as a line in between.
 plot::Curve TruthOf(const RecordingOutcome& outcome) {
   constexpr std::size_t kWidestGap = 20;  // frames
   plot::Curve truth{"truth", kTruth, std::vector<std::optional<double>>(outcome.truth.size()), 5.0};

@@ -41,7 +41,7 @@ RecordingRow BeginRow(const RecordingPair& pair, const RecordingOptions& options
   return row;
 }
 
-// What there is to judge by. `frames`: of the recording.
+// Returns the reference; `frames` is the recording's length.
 Result<Reference> ReferenceOf(const RecordingPair& pair, int frames) {
   if (!pair.reference.empty()) return ReadReference(pair.reference);
   if (pair.kind == PairKind::kIdentity) return IdentityReference(frames);
@@ -100,7 +100,8 @@ class Replaying {
   }
 
  private:
-  // What went wrong, or nothing. What a session throws is the fault that is looked for, too.
+  // Returns what went wrong, or an empty text. An exception of the session is a fault that replays
+  // are meant to find.
   std::string Step(const agent::Observation& seen, RecordingOutcome& outcome) {
     const double began_ms = ThreadCpuMs();
     Result<agent::ReplayStep> step = agent::ReplayStep{};

@@ -9,7 +9,7 @@ namespace trailcast::trial {
 Result<RecordingView> RecordingView::Open(const agent::RecordedRun& run,
                                           const Disturbance& disturbance,
                                           const OdometryNoise& noise, std::uint64_t seed) {
-  // Also finds out what is unusable, as an agent does.
+  // This also finds unusable recordings, as an agent does.
   const auto device = agent::RecordedDevice::Open(run);
   if (!device) return tl::unexpected(device.error());
   const auto count = CountFrames(run.frames);

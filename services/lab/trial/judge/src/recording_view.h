@@ -15,22 +15,22 @@
 
 namespace trailcast::trial {
 
-// What a robot sees that drives as a recording shows it, disturbed.
+// The view of a robot that drives as a recording shows it, with disturbances.
 class RecordingView {
  public:
   [[nodiscard]] static Result<RecordingView> Open(const agent::RecordedRun& run,
                                                   const Disturbance& disturbance,
                                                   const OdometryNoise& noise, std::uint64_t seed);
 
-  // The next observation, or nothing at the end. Frames come at the recording's rate in whatever
-  // order they are; odometry tells of the way that the frames show, and nothing of a cut.
+  // Returns the next observation, or nothing at the end. Frames come at the recording's rate,
+  // whatever their order. Odometry follows the motion that the frames show, and ignores cuts.
   [[nodiscard]] Result<std::optional<agent::Observation>> Next();
 
   [[nodiscard]] const std::vector<Shown>& order() const { return frames_.order(); }
-  // As FrameSequence has it.
+  // See FrameSequence.
   [[nodiscard]] std::vector<std::string> TakeNews() { return frames_.TakeNews(); }
   [[nodiscard]] double rate_hz() const { return rate_hz_; }
-  // Of the recording, undisturbed.
+  // These are of the undisturbed recording.
   [[nodiscard]] int width_px() const { return width_px_; }
   [[nodiscard]] int recorded_frames() const { return recorded_frames_; }
 
@@ -42,12 +42,12 @@ class RecordingView {
   OrderedFrames frames_;
   PictureChanger changer_;
   std::optional<agent::OdometryFile> odometry_;
-  std::optional<OdometrySpoiler> spoiler_;  // of that
+  std::optional<OdometrySpoiler> spoiler_;  // of the odometry
   double rate_hz_ = agent::RecordedDevice::kDefaultRate_hz;
   int width_px_ = 0;
   int recorded_frames_ = 0;
   int next_ = 0;
-  // The recorded pose from which the way since the last cut is counted, and the one told for it.
+  // The recorded pose at the last cut, and the one that was told for it.
   motion::Pose2 recorded_since_;
   motion::Pose2 told_since_;
   motion::Pose2 told_;  // the last one

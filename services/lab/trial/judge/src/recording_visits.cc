@@ -10,7 +10,7 @@
 namespace trailcast::trial {
 namespace {
 
-// What has come of one; for people.
+// Returns the outcome of one visit, for people.
 Result<std::string> Visit(const agent::RecordedRun& run, const Disturbance& disturbance,
                           const RecordingOptions& options,
                           const std::function<void(double share)>& on_progress,

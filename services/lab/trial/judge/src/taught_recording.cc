@@ -11,7 +11,7 @@ Result<TaughtRecording> TeachRecording(const agent::RecordedRun& run,
   if (!device) return tl::unexpected(device.error());
   RouteRecorder recorder(run.frames.string(), (*device)->camera(), options);
   TaughtRecording taught{Fail(ErrorCode::kUnavailable, "no frames"), {}, 0, {}};
-  std::vector<int> numbers;  // in the recording, of the frames that can be read
+  std::vector<int> numbers;  // in the recording, for the frames that can be read
   while (true) {
     const auto seen = (*device)->Next();
     if (!seen) return tl::unexpected(seen.error());

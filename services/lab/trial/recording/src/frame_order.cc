@@ -10,7 +10,7 @@ namespace {
 
 using Order = std::vector<Shown>;
 
-// A whole number below `bound`, the same with every standard library.
+// Draws a whole number below `bound`, the same with every standard library.
 int Below(int bound, std::mt19937_64& random) {
   return static_cast<int>(random() % static_cast<std::uint64_t>(bound));
 }
@@ -38,14 +38,14 @@ Order Slower(const Order& order, int times) {
 
 Order Reverse(const Order& order) {
   Order reversed(order.rbegin(), order.rend());
-  // A cut is between two frames: now the other one comes second.
+  // A cut is between two frames, and the other one now comes second.
   for (std::size_t i = 0; i < reversed.size(); ++i) {
     reversed[i].cut = i > 0 && order[order.size() - i].cut;
   }
   return reversed;
 }
 
-// Up to three gaps, each somewhere in the middle of its own part of the recording.
+// Makes up to three gaps, each somewhere in the middle of its own part of the recording.
 Result<Order> Skip(const Order& order, int left_out, std::mt19937_64& random) {
   constexpr int kMostGaps = 3;
   const int frames = static_cast<int>(order.size());
@@ -71,7 +71,7 @@ Result<Order> Skip(const Order& order, int left_out, std::mt19937_64& random) {
   return kept;
 }
 
-// Stretches of one length from here and there, the first from the beginning.
+// Takes sections of equal length from random places, the first from the beginning.
 Result<Order> Jump(const Order& order, int jumps, std::mt19937_64& random) {
   constexpr int kShortestStretch = 10;
   const int frames = static_cast<int>(order.size());
@@ -85,7 +85,7 @@ Result<Order> Jump(const Order& order, int jumps, std::mt19937_64& random) {
   int at = stretch;
   for (int jump = 0; jump < jumps; ++jump) {
     int to = Below(frames - stretch + 1, random);
-    // Elsewhere: not where it would have gone on to anyway.
+    // The next section must not be where the last one leads anyway.
     while (std::abs(to - at) < frames / 5) to = Below(frames - stretch + 1, random);
     jumped.push_back({order[static_cast<std::size_t>(to)].frame, true});
     jumped.insert(jumped.end(), order.begin() + to + 1, order.begin() + to + stretch);

@@ -4,7 +4,7 @@
 
 namespace trailcast::trial {
 
-// Grey levels to 255 (grey / 255)^gamma, in place.
+// Changes grey levels to 255 (grey / 255)^gamma, in place.
 void Respond(double gamma, cv::Mat& picture);
 
 }  // namespace trailcast::trial

@@ -11,7 +11,7 @@ bool Follows(const Said& said) {
   return said.claim == Claim::kFollowing || said.claim == Claim::kArrived;
 }
 
-// The times that a robot was off its place, and how soon it was back.
+// Records when a robot was off its place, and how soon it was back.
 class OffWatch {
  public:
   explicit OffWatch(const JudgeOptions& options) : options_(options) {}
@@ -32,7 +32,7 @@ class OffWatch {
     }
     ever_right_ = ever_right_ || right;
   }
-  // Nothing more is seen from this frame on.
+  // Ends the record: nothing more is seen from this frame on.
   void End(int at) {
     if (off() && (at - since_) / options_.rate_hz > options_.found_within_s) ++offs_;
     since_ = kOn;

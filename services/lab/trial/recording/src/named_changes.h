@@ -14,16 +14,16 @@
 
 namespace trailcast::trial {
 
-// A change that is asked for by its name, with a number: "jpeg=30".
+// A change given by its name with a number: "jpeg=30".
 template <typename Kind>
 struct NamedChange {
   Kind kind;
   const char* name;
-  double value;  // where none is given
+  double value;  // if none is given
   double least;
-  double most;  // 0: it takes no number
+  double most;  // 0 if it takes no number
   const char* help;
-  bool whole = false;  // the number is
+  bool whole = false;  // the number must be whole
 };
 
 template <typename Change, typename Kind, std::size_t kCount>
@@ -53,7 +53,8 @@ template <typename Change, typename Kind, std::size_t kCount>
   return Change{found->kind, *number};
 }
 
-// Several of them, joined with '+'; "" or "none": no change. `what` is what messages call one.
+// Parses several of them, joined with '+'; "" or "none" stand for no change. Messages call one
+// `what`.
 template <typename Change, typename Kind, std::size_t kCount>
 [[nodiscard]] Result<std::vector<Change>> ParseNamedChanges(
     std::string_view text, const std::array<NamedChange<Kind>, kCount>& known, const char* what) {
@@ -69,7 +70,7 @@ template <typename Change, typename Kind, std::size_t kCount>
   }
 }
 
-// One line for each, for people.
+// Returns one line for each, for people.
 template <typename Kind, std::size_t kCount>
 [[nodiscard]] std::string HelpOf(const std::array<NamedChange<Kind>, kCount>& known) {
   std::string help;

@@ -27,9 +27,9 @@ constexpr std::array kKnownFaults{
     KnownFault{OdometryFault::kJumps, "jumps", 2.0, 1.0, 100.0,
                "is 2 m further and turned by 1 radian all at once, so many times"}};
 
-constexpr double kEarliest = 0.25;  // of the drive
+constexpr double kEarliest = 0.25;  // share of the drive
 constexpr double kLatest = 0.65;
-// Of a wheel that spins.
+// The false motion of a spinning wheel.
 constexpr motion::VelocityCommand kSpins{0.4, 0.8};
 constexpr motion::OdometryIncrement kJump{2.0, 1.0};
 

@@ -54,7 +54,7 @@ Result<void> OrderedFrames::KeepAll(const std::filesystem::path& recording) {
   return {};
 }
 
-// Until `frame` is the current one.
+// Reads until `frame` is the current one.
 Result<void> OrderedFrames::ReadOn(int frame) {
   while (read_ <= frame) {
     auto next = frames_->Next();

@@ -14,7 +14,8 @@ struct Maps {
   cv::Mat y;
 };
 
-// For each pixel of the other camera the place in the first one's picture that it looks at.
+// Returns, for each pixel of the other camera, the place in the first one's picture at which it
+// looks.
 Maps LookUp(const OtherCamera& camera, cv::Size from) {
   Maps maps{cv::Mat(camera.height, camera.width, CV_32F),
             cv::Mat(camera.height, camera.width, CV_32F)};
@@ -24,7 +25,7 @@ Maps LookUp(const OtherCamera& camera, cv::Size from) {
     for (int column = 0; column < camera.width; ++column) {
       const double u = column - 0.5 * (camera.width - 1);
       const double v = row - 0.5 * (camera.height - 1);
-      // The straight radius whose bent one is this pixel's; a few steps are exact enough.
+      // This inverts the distortion; a few steps are precise enough.
       const double bent = std::hypot(u, v) / half;
       double straight = bent;
       for (int i = 0; i < 8; ++i) straight = bent / (1.0 - camera.barrel * straight * straight);

@@ -42,7 +42,7 @@ Result<GrayImage> ThroughJpeg(const GrayImage& frame, double quality) {
       });
 }
 
-// Grease: what lies behind is blurred, and stray light makes it paler; the edge is soft.
+// Grease blurs what is behind it, and stray light makes that paler. Its edge is soft.
 GrayImage Smeared(GrayImage frame, double radius_share, std::uint64_t seed) {
   constexpr double kStrayLight = 180.0;
   constexpr double kStrayShare = 0.25;
@@ -74,7 +74,7 @@ GrayImage Cropped(const GrayImage& frame, double share) {
 }
 
 Result<GrayImage> Changed(GrayImage frame, const Change& change, std::uint64_t seed, int number) {
-  // Spread over all bits, so that neither pictures nor seeds share their noise.
+  // The number is spread over all bits, so that neither pictures nor seeds share their noise.
   const std::uint64_t own =
       ((seed << 32U) + static_cast<std::uint64_t>(number) + 1) * 0x9E3779B97F4A7C15ULL;
   switch (change.kind) {
@@ -99,7 +99,7 @@ Result<GrayImage> Changed(GrayImage frame, const Change& change, std::uint64_t s
     case ChangeKind::kSkip:
     case ChangeKind::kJump:
     case ChangeKind::kFrom:
-      break;  // of the order alone
+      break;  // these change only the order
   }
   return frame;
 }
