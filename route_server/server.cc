@@ -291,14 +291,14 @@ void Server::TellAgents() {
   for (exchange::RouteFollowers& followers : followers_.Due(now)) {
     told.emplace_back(std::move(followers));
   }
-  // What cannot be sent is soon repeated.
+  // Anything that cannot be sent is soon repeated.
   (void)exchange::PublishAll(*exchange_, told);
   for (const std::string& note : fleet_.TakeNotes()) spdlog::warn("{}", note);
 }
 
 void Server::TellMissions() {
   if (!missions_) return;
-  // What cannot be sent is requested, or sent, again.
+  // Anything that cannot be sent is requested, or sent, again.
   (void)exchange::PublishAll(*exchange_, missions_->Tick(steady_clock::now(), NowUnixMs()));
   for (const MissionBoard::Note& note : missions_->TakeNotes()) {
     spdlog::log(note.warning ? spdlog::level::warn : spdlog::level::info, "{}", note.text);

@@ -35,7 +35,7 @@ class RecordedDevice final : public RobotDevice {
 
   [[nodiscard]] bool has_odometry() const { return odometry_.has_value(); }
   [[nodiscard]] double rate_hz() const { return rate_hz_; }
-  // Returns the number of the frame that Next gave last, from 0. Those that cannot be read count.
+  // Returns the number of the frame that Next gave last, from 0. Frames that cannot be read count.
   [[nodiscard]] int frame() const { return frame_; }
   // Returns "30 frames a second" or "frames by their own times", for people.
   [[nodiscard]] std::string timing() const;

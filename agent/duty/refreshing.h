@@ -12,7 +12,7 @@
 
 namespace trailcast::agent {
 
-// What a follower does about a route that it found changed.
+// A follower's action for a route that it found changed.
 enum class Refreshing : std::uint8_t {
   kOff,
   kReview,  // refreshes it; robots follow the new revision once an operator has activated it

@@ -80,8 +80,8 @@ class ScoutLink {
   // Takes a segment from the control loop. False means that the disk does not keep up, or failed;
   // see Finish.
   [[nodiscard]] bool Offer(route::Segment segment);
-  // Discards what the control loop has offered so far. What follows is another teaching of the
-  // route, with pictures of this size. Only for one that began with Start.
+  // Discards what the control loop has offered so far. The following segments are another teaching
+  // of the route, with pictures of this size. Only for one that began with Start.
   [[nodiscard]] bool BeginAnew(int width_px, int height_px);
   void Report(const TeachingNow& now);
   // Says whether the store failed, so that teaching is pointless.

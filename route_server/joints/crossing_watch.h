@@ -37,7 +37,7 @@ class CrossingWatch {
 
   // Notes a stored segment.
   void NoteStored(const route::RouteKey& key, SegmentIndex segment);
-  // See JointSearch::Step. What cannot be read is left out.
+  // See JointSearch::Step. Routes that cannot be read are left out.
   [[nodiscard]] Result<bool> Step();
   void Handle(const JointComparer::Done& done);
 

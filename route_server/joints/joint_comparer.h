@@ -17,7 +17,7 @@ namespace trailcast::server {
 // Compares routes view by view, on a thread of its own with the lowest priority.
 class JointComparer {
  public:
-  // In processor time. What was found by then is the result.
+  // The bound on processor time. The junctions found by then are the result.
   static constexpr double kMost_ms = 20'000.0;
 
   using Views = std::shared_ptr<const joints::RouteViews>;

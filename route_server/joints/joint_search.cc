@@ -12,7 +12,7 @@
 namespace trailcast::server {
 namespace {
 
-// Of a view's best matches, some belong to the route itself, or to other revisions of it.
+// Some of a view's best matches belong to the route itself, or to other revisions of it.
 constexpr std::size_t kMostAlike = 30;
 // Two routes run together for longer than their most similar views show, and the junction is where
 // they begin to. So many segments on either side are therefore compared as well.

@@ -124,7 +124,7 @@ void NetworkBoard::DropProposals(const route::RouteKey& key) {
   if (searched_.erase(id) == 0 && dropped == 0) return;
   std::erase(unsaved_, id);
   NoteChange();
-  // What stays on the disk belongs to a revision that is gone, and is not listed.
+  // The entry that stays on the disk belongs to a revision that is gone, and is not listed.
   (void)store_->DropProposals(id);
 }
 

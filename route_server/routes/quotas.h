@@ -27,8 +27,8 @@ struct QuotaOptions {
 };
 
 // Limits how much of a server each agent, by its name, may use. An agent that reaches a limit is
-// told so. What is not taken stays with it, and is offered or requested again. Errors are
-// kUnavailable with the text for the agent. It has no clock.
+// told so. It keeps the rest, and offers or requests it again. Errors are kUnavailable with the
+// text for the agent. It has no clock.
 class Quotas {
  public:
   using Time = std::chrono::steady_clock::time_point;

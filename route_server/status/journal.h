@@ -41,7 +41,7 @@ class Journal {
   [[nodiscard]] Known& KnownOf(const route::RouteKey& key);
 
   std::map<route::RouteKey, Known> routes_;
-  // Those present, with their instances.
+  // The agents present, with their instances.
   NewestMap<AgentId, std::uint64_t> agents_{kMostAgents};
   // Reported commands, by client and number, and who answered them, because they are repeated.
   using NowKey = std::pair<AgentId, std::uint64_t>;

@@ -24,8 +24,9 @@ class ViewCatalog {
   // `store` must outlive the catalog.
   explicit ViewCatalog(store::RouteStore& store, const view::ViewIndexOptions& options = {});
 
-  // Indexes up to `most` more segments, or looks at so many routes. An error is the store's. What
-  // cannot be read is left out and reported once, or left for later if the store is kUnavailable.
+  // Indexes up to `most` more segments, or looks at so many routes. An error is the store's. A
+  // segment that cannot be read is left out and reported once, or left for later if the store is
+  // kUnavailable.
   [[nodiscard]] Result<void> Fill(std::size_t most);
   // Returns true if there is nothing to do at present: everything is indexed, or the index is full.
   [[nodiscard]] bool Filled() const;

@@ -27,7 +27,7 @@ struct Ros2Options {
   // If it is empty, the driver uses the network's interface, as DDS chooses it, and the loopback,
   // and so meets nodes with any of ROS 2's usual settings (ros2_network.h).
   std::string network_interface;
-  // These are ROS names. Those without a leading '/' are below `robot`, as in "/robot1".
+  // These are ROS names. A name without a leading '/' is below `robot`, as in "/robot1".
   std::string robot;
   std::string image = "image_raw";  // ends with "/compressed": sensor_msgs/CompressedImage
   std::string odometry = "odom";    // empty: none

@@ -9,7 +9,7 @@
 
 namespace trailcast::refresh {
 
-// What became of one of a segment's features while a follower drove along it.
+// The result of looking for one of a segment's features while a follower drove along it.
 enum class Sought : std::uint8_t {
   kUnjudged,  // it was not in view, or nothing near it was seen well enough to judge
   kFound,

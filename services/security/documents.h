@@ -36,7 +36,7 @@ inline constexpr const char* kRevocationsTopic = "trailcast/revocations";
 // Says whether permissions allow the partitions below the member's own. Older ones do not.
 [[nodiscard]] bool AllowsScopes(const std::string& permissions_xml, const Member& member);
 
-// Says whether permissions name the topic. Those from before the topic existed do not.
+// Says whether permissions name the topic. Permissions from before the topic existed do not.
 [[nodiscard]] bool AllowsTopic(const std::string& permissions_xml, const std::string& topic);
 
 // Returns the value of the only element of that name, or nothing if there is none or several.

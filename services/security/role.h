@@ -10,8 +10,8 @@
 
 namespace trailcast::security {
 
-// What a member of the fleet may do. It is in the member's certificate, and in the permissions that
-// the fleet's authority signs.
+// The rights of a member of the fleet. The role is in the member's certificate, and in the
+// permissions that the fleet's authority signs.
 enum class Role : std::uint8_t { kScout, kFollower, kServer, kOperator, kObserver };
 
 [[nodiscard]] std::span<const Role> AllRoles();

@@ -14,7 +14,7 @@ namespace trailcast::agent {
                                       const dds::Ros2Driver::Peers& peers,
                                       const RobotWatch::Trouble& trouble, bool stamps_stand);
 
-// What has come from a robot since the agent began.
+// The kinds of messages that have come from a robot since the agent began.
 struct Came {
   bool pictures = false;
   bool odometry = false;

@@ -373,7 +373,7 @@ void Duty::Teach(const mission::Task& task) {
   }
 }
 
-// Finds teachings that earlier runs left. Those that were cut off end with what is there.
+// Finds teachings that earlier runs left. A teaching that was cut off ends with what is there.
 void Duty::FindUndelivered() {
   if (!options_.why_no_scout.empty()) return;
   const auto store = options_.open_scouts_store();

@@ -67,7 +67,7 @@ void Duty::Hear(const exchange::Message& message) {
 void Duty::Say(exchange::RouteExchange& to) {
   if (!claimed_) return;
   const auto now = steady_clock::now();
-  // What cannot be sent is repeated, or asked for again.
+  // Anything that cannot be sent is repeated, or asked for again.
   (void)exchange::PublishAll(to, desk_.Due(now, presence_.server().has_value()));
   TellNews();
   if (following_) return;

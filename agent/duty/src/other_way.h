@@ -8,7 +8,7 @@
 
 namespace trailcast::agent {
 
-// What a robot does that is sent another path while it follows an order.
+// The action of a robot that is sent another path while it follows an order.
 struct OtherWay {
   enum class Kind {
     kGoesOn,  // it continues on its route, to the end of that order of the new path

@@ -168,7 +168,7 @@ void MissionDesk::Take(const mission::Mission& mission) {
   // move on it.
   const auto going = mission::GoingIn(mission.orders);
   if (going && going->way > 1) return;
-  // Those that ended first are dropped first; the current one stays.
+  // The missions that ended first are dropped first; the current one stays.
   if (kept_.size() >= kMostKept) {
     kept_.erase(std::find_if(kept_.begin(), kept_.end(),
                              [](const Kept& kept) { return mission::HasEnded(kept.last.state); }));

@@ -35,8 +35,8 @@ std::string Uri(const std::filesystem::path& file) {
 // there.
 enum class Way {
   kShared,  // with its log, while a recorder may still write
-  // With its log on a read-only disk. SQLite then does without the file of shared memory, which
-  // requires that it has the database to itself, and without locks.
+  // The file is on a read-only disk, with its log. SQLite then does without the file of shared
+  // memory, which requires that it has the database to itself, and without locks.
   kAlone,
   kWithoutLog,  // as a file that nobody writes, so that SQLite writes nothing beside it
 };

@@ -523,7 +523,7 @@ void DdsExchange::TakeRevocations() {
 }
 
 void DdsExchange::LookAtPeers(Clock::time_point now) {
-  // What cannot be read now will be read the next time.
+  // Anything that cannot be read now will be read the next time.
   (void)joined_->peers.Look({.seen =
                                  [&](const auto& participant, const auto& said) {
                                    arrivals_.See(participant, said.address);

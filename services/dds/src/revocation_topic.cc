@@ -55,7 +55,7 @@ Result<void> RevocationTopic::Write(const Participant& participant,
 std::vector<RevocationTopic::Offer> RevocationTopic::Take() {
   constexpr std::size_t kMost = 64;  // servers
   std::vector<Offer> offers;
-  // What cannot be taken now will be taken the next time.
+  // Anything that cannot be taken now will be taken the next time.
   (void)reader_.Take(kMost, [&](const void* sample, const dds_sample_info_t& info) {
     if (!info.valid_data) return;
     offers.push_back({reader_.PartitionOf(info.publication_handle).value_or("a server that went"),

@@ -27,8 +27,8 @@ struct Incident {
 // a reduced speed.
 [[nodiscard]] std::vector<Incident> FrameIncidents(const agent::RunLog& log);
 
-// Returns all incidents in the order in which they began. Those of one kind that follow each other
-// closely are merged and have the text of the weightiest.
+// Returns all incidents in the order in which they began. Incidents of one kind that follow each
+// other closely are merged and have the text of the weightiest.
 [[nodiscard]] std::vector<Incident> FindIncidents(const agent::RunLog& log);
 
 }  // namespace trailcast::explain

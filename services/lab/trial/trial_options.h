@@ -46,8 +46,8 @@ struct TrialOptions {
   int visits = 0;
   std::string spoiled;   // fault of all visitors; one more without it comes last
   bool refresh = false;  // and each follower gets the route as the one before has left it
-  // Those robots are told their places, with an error of this much (one sigma), as if they were
-  // sent along a part of a route. Without it they are told none.
+  // The robots set down along the path are told their places, with an error of this much (one
+  // sigma), as if they were sent along a part of a route. Without it they are told none.
   std::optional<double> told_m;
   std::string log_folder;  // gets one log a trial; may be empty
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

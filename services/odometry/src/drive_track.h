@@ -12,7 +12,7 @@ namespace trailcast::odometry {
 // Sums up a drive's steps since its beginning, so that the motion in any time is a difference.
 class DriveTrack {
  public:
-  // At least one step.
+  // There must be at least one step.
   explicit DriveTrack(std::span<const DriveStep> steps);
 
   // The motion from `t_s` - `period_s` to `t_s` by the picture, and so much later by odometry.

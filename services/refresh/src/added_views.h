@@ -9,7 +9,7 @@
 
 namespace trailcast::refresh {
 
-// Updates the key views of `segment` after a visit. The scout's stay as they are. Those that
+// Updates the key views of `segment` after a visit. The scout's stay as they are. The ones that
 // followers added stay as long as they are recognised now and then, and offered ones are added.
 // Additions do not make the segment larger than `most_bytes`, if that is given.
 void RefreshViews(const SegmentVisit& visit, std::optional<std::size_t> most_bytes,

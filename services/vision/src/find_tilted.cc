@@ -11,7 +11,7 @@ namespace trailcast::vision {
 namespace {
 
 // How one view is turned, scaled and shifted against another, for a robot that rolls, pitches,
-// heads elsewhere or has come nearer: u' = a u - b v + du, v' = b u + a v + dv.
+// turns or has come nearer: u' = a u - b v + du, v' = b u + a v + dv.
 struct Similarity {
   double a = 1.0;
   double b = 0.0;

@@ -1,19 +1,16 @@
 // The documents lead where they say, and are written in sentences and in the field's words.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tests/support/documents.h"
+#include "tests/unit/base/prose.h"
 
 namespace trailcast {
 namespace {
@@ -21,12 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 using test::Document;
 using test::DocumentLine;
+using test::IsLetter;
 using test::LineKind;
+using test::Lower;
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-bool IsLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
-char Lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 Document Read(const std::string& text) {
   std::istringstream in(text);
@@ -93,103 +89,11 @@ std::vector<std::string> DeadLinks(const std::vector<Document>& documents) {
   return dead;
 }
 
-struct Word {
-  std::string_view word;
-  std::string_view say;
-};
-constexpr Word kPrivateWords[] = {
-    {"on duty", "available, on a mission, or that it waits to be sent"},
-    {"glance", "camera snapshot"},
-    {"glances", "camera snapshots"},
-    {"stretch", "section"},
-    {"stretches", "sections"},
-    {"stray", "orphan"},
-    {"strays", "orphans"},
-    {"receipted", "acknowledged"},
-    {"eyes", "front end"},
-    {"stand-in", "backup"},
-};
-// A sentence that begins so mostly has its subject at its end, or none. ("Of 40 robots one waits"
-// has one.)
-constexpr std::string_view kOpenings[] = {"Of", "Those", "Who", "Whose", "Whom", "Whoever", "Nor"};
-
-// Those that are still to be read.
+// These are still to be read.
 const std::set<std::string> kNotReadYet{"config/README.md", "services/console/README.md"};
 
-// Paragraphs, and items of lists, each as one line of text without code and links' targets.
-struct Paragraph {
-  int number = 0;
-  std::string text;
-};
-
-// `text` without code, targets of links, emphasis, and the mark of a list's item.
-std::string Prose(const std::string& text) {
-  std::string prose;
-  bool target = false;
-  for (const char c : test::WithoutCode(text)) {
-    if (c == '(' && prose.ends_with(']')) target = true;
-    if (!target && c != '*' && !(c == ' ' && prose.ends_with(' '))) prose += c;
-    if (c == ')') target = false;
-  }
-  const std::size_t begin =
-      prose.find_first_not_of(test::BeginsAnItem(text) ? "- 0123456789." : " ");
-  return begin == std::string::npos ? "" : prose.substr(begin);
-}
-
-std::vector<Paragraph> ParagraphsOf(const Document& document) {
-  std::vector<Paragraph> paragraphs;
-  bool goes_on = false;
-  for (const DocumentLine& line : document.lines) {
-    if (line.kind == LineKind::kProse && goes_on) {
-      paragraphs.back().text += " " + line.text;
-    } else if (line.kind == LineKind::kProse || line.kind == LineKind::kItem) {
-      paragraphs.push_back({line.number, line.text});
-    }
-    goes_on = line.kind == LineKind::kProse || line.kind == LineKind::kItem;
-  }
-  for (Paragraph& paragraph : paragraphs) paragraph.text = Prose(paragraph.text);
-  return paragraphs;
-}
-
-bool IsWordAt(const std::string& text, std::size_t at, std::string_view word) {
-  return text.compare(at, word.size(), word) == 0 && (at == 0 || !IsLetter(text[at - 1])) &&
-         (at + word.size() == text.size() || !IsLetter(text[at + word.size()]));
-}
-
-bool BeginsASentence(const std::string& text, std::size_t at) {
-  return at == 0 || (at > 1 && text[at - 1] == ' ' &&
-                     std::string_view(".!?:").find(text[at - 2]) != std::string_view::npos);
-}
-
-std::vector<std::string> UnplainProse(const Document& document) {
-  std::vector<std::string> found;
-  for (const Paragraph& paragraph : ParagraphsOf(document)) {
-    const std::string& text = paragraph.text;
-    const auto tell = [&](std::size_t at, std::string_view say) {
-      found.push_back(fmt::format("{}: '{}..': {}", document.Where(paragraph.number),
-                                  text.substr(at, 30), say));
-    };
-    for (const std::string_view opening : kOpenings) {
-      for (std::size_t at = text.find(opening); at != std::string::npos;
-           at = text.find(opening, at + 1)) {
-        const std::size_t next = at + opening.size() + 1;
-        const bool counts = next < text.size() && std::isdigit(text[next]) != 0;
-        if (IsWordAt(text, at, opening) && BeginsASentence(text, at) && !counts) {
-          tell(at, "begin with the subject");
-        }
-      }
-    }
-    std::string lower = text;
-    std::transform(lower.begin(), lower.end(), lower.begin(), Lower);
-    for (const Word& private_word : kPrivateWords) {
-      for (std::size_t at = lower.find(private_word.word); at != std::string::npos;
-           at = lower.find(private_word.word, at + 1)) {
-        if (IsWordAt(lower, at, private_word.word))
-          tell(at, fmt::format("say {}", private_word.say));
-      }
-    }
-  }
-  return found;
+std::vector<std::string> UnplainIn(const Document& document) {
+  return test::UnplainProse(document, test::kDocumentOpenings);
 }
 
 TEST(Documents, EveryLinkLeadsToAFileAndAHeading) {
@@ -204,16 +108,16 @@ TEST(Documents, ALinkToNothingIsFound) {
 TEST(Documents, AreWrittenInSentencesAndInTheFieldsWords) {
   for (const Document& document : test::ReadDocuments()) {
     if (kNotReadYet.contains(document.path.string())) continue;
-    EXPECT_THAT(UnplainProse(document), IsEmpty());
+    EXPECT_THAT(UnplainIn(document), IsEmpty());
   }
 }
 
 TEST(Documents, AFragmentAndAPrivateWordAreFound) {
   EXPECT_THAT(
-      UnplainProse(Read("A robot drives. Of two\none waits.\n\n- Who waits `glance`\n\n    Of\n")),
+      UnplainIn(Read("A robot drives. Of two\none waits.\n\n- Who waits `glance`\n\n    Of\n")),
       testing::SizeIs(2));
-  EXPECT_THAT(UnplainProse(Read("A robot is on\nduty.\n")), testing::SizeIs(1));
-  EXPECT_THAT(UnplainProse(Read("# Who may\n| Of all | on duty |\nA robot of two waits.\n")),
+  EXPECT_THAT(UnplainIn(Read("A robot is on\nduty.\n")), testing::SizeIs(1));
+  EXPECT_THAT(UnplainIn(Read("# Who may\n| Of all | on duty |\nA robot of two waits.\n")),
               IsEmpty());
 }
 

@@ -138,7 +138,7 @@ Result<Joined> Joined::Open(const DdsOptions& options, const exchange::TopicUse&
 StarOrMesh::Seen Joined::Look() {
   constexpr std::size_t kMostAtOnce = 1024;
   if (participants) {
-    // What cannot be read now will be read the next time.
+    // Anything that cannot be read now will be read the next time.
     (void)participants->Take(kMostAtOnce, [&](const void*, const dds_sample_info_t& info) {
       if (info.instance_state == DDS_IST_ALIVE) {
         present.insert(info.instance_handle);

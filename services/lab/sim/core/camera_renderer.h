@@ -20,8 +20,8 @@ struct CameraMotion {
   Eigen::Vector3d angular_radps = Eigen::Vector3d::Zero();
 };
 
-// What a perfect camera would see: no noise, no blur, not yet cut to 8 bits. Row-major, one entry a
-// pixel; outside the lens's picture grey is 0 and depth that of the sky.
+// The view of a perfect camera, without noise or blur, and not yet cut to 8 bits. It is row-major
+// with one entry a pixel. Outside the lens's picture, grey is 0 and depth is the sky's.
 struct PerfectView {
   int width = 0;
   int height = 0;

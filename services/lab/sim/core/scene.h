@@ -53,7 +53,8 @@ struct Scene {
   std::vector<Mesh> meshes;
   Lighting lighting;
   GroundMode ground = GroundMode::kMesh;
-  // What could not be had and how it was replaced (a missing texture), for the user.
+  // Lines for the user about things that could not be had and their replacements (a missing
+  // texture).
   std::vector<std::string> warnings;
 };
 

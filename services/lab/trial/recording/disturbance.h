@@ -8,7 +8,7 @@
 namespace trailcast::trial {
 
 // The changes to a recording before it is replayed, so that one recording tests several things.
-// Those of the frames' order come first, then those of the pictures.
+// Changes of the frames' order come first, then changes of the pictures.
 enum class ChangeKind {
   kEvery,
   kSlower,

@@ -46,7 +46,7 @@ struct Oval {
   float half_x, half_y;
 };
 
-// Stretches skin from the top down. The texture goes round once, with its middle in front, and down
+// Spans skin from the top down. The texture goes round once, with its middle in front, and down
 // once.
 void Stretch(SceneBuilder& builder, MaterialId material, const std::vector<Oval>& ovals) {
   constexpr std::uint32_t kSides = 14;

@@ -122,7 +122,7 @@ void FurnishDeskRoom(Furniture& f) {
   DeskWithThings(f, 5.2F, 1.55F, kNorth);  // along the way to the east
   DeskWithThings(f, 7.0F, 1.55F, kNorth);
   DeskWithThings(f, 4.58F, 2.85F, kSouth);
-  DeskWithThings(f, 6.8F, 4.5F, kEast);  // on either side of the last stretch
+  DeskWithThings(f, 6.8F, 4.5F, kEast);  // on either side of the last section
   DeskWithThings(f, 8.05F, 4.3F, kWest);
   DeskWithThings(f, 8.05F, 6.1F, kWest);
   f.Stand(6.1F, 3.75F, kSouth);

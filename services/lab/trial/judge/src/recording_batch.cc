@@ -57,7 +57,7 @@ class Batch {
   }
 
  private:
-  // The results that all replays on one recording share. Whoever needs one first makes it.
+  // The results that all replays on one recording share. The first thread that needs one makes it.
   struct Teaching {
     std::once_flag taught_once;
     Result<TaughtRecording> taught = Fail(ErrorCode::kInternal, "not taught yet");

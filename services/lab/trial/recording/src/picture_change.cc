@@ -42,7 +42,7 @@ Result<GrayImage> ThroughJpeg(const GrayImage& frame, double quality) {
       });
 }
 
-// Grease blurs what is behind it, and stray light makes that paler. Its edge is soft.
+// Grease blurs what is behind it, and scattered light makes that paler. Its edge is soft.
 GrayImage Smeared(GrayImage frame, double radius_share, std::uint64_t seed) {
   constexpr double kStrayLight = 180.0;
   constexpr double kStrayShare = 0.25;
