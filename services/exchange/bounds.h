@@ -9,7 +9,7 @@
 namespace trailcast::exchange {
 
 // What is accepted from a peer, and therefore published, beyond what a route is (route/bounds.h).
-// Also in idl/README.md.
+// Also in docs/reference/protocol.md.
 inline constexpr std::size_t kMaxPieceBytes = route::kMaxSegmentBytes;
 inline constexpr std::size_t kMaxPiecesPerBatch = 4096;  // what one Publish may carry
 inline constexpr std::size_t kMaxIndicesPerRequest = 1024;

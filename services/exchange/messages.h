@@ -24,7 +24,8 @@ using mission::NowWhom;
 using mission::ToString;
 
 // Every member has an initialiser, so that designated initialisers may leave some out.
-// One value type for each topic of the wire (idl/trailcast.idl); the prose is in idl/README.md.
+// One value type for each topic of the wire (idl/trailcast.idl); the prose is in
+// docs/reference/protocol.md.
 
 // trailcast/routes: the latest that is known of a route, from its scout or from a server. A server
 // announces what it can serve: while it lacks segments, `info` is kTeaching and counts the durable

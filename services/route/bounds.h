@@ -12,7 +12,7 @@
 namespace trailcast::route {
 
 // What is accepted of a route wherever it comes from, a peer, a file or a store's row, and
-// therefore made. Also in idl/README.md.
+// therefore made. Also in docs/reference/protocol.md.
 inline constexpr std::uint64_t kMaxTeaching = (1ULL << 63U) - 1;  // a database's largest number
 inline constexpr std::uint32_t kMaxSegmentsPerRoute = 100'000;    // 200 km at 2 m
 inline constexpr std::uint64_t kMaxRouteBytes =

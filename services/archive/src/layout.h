@@ -8,7 +8,7 @@
 
 namespace trailcast::archive {
 
-// A route file (idl/README.md, "A route as a file"), numbers little-endian:
+// A route file (docs/reference/route-format.md, "A route as a file"), numbers little-endian:
 //   preamble: magic, u32 version, u32 size of the description, u64 size of the whole file
 //   the description: route::EncodeInfo, AsTaught
 //   each segment in order: u32 index, u32 size, digest, the bytes that were hashed

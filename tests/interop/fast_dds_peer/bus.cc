@@ -44,7 +44,8 @@ Bus::Bus(std::uint32_t domain) {
       Made(dds::DomainParticipantFactory::get_instance()->create_participant(domain, qos),
            "participant");
   publisher_ = Made(participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT), "publisher");
-  // Segments come in the partitions of scopes (idl/README.md), all else in the default one.
+  // Segments come in the partitions of scopes (docs/reference/protocol.md), all else in the default
+  // one.
   dds::SubscriberQos everything = dds::SUBSCRIBER_QOS_DEFAULT;
   everything.partition().push_back("");
   everything.partition().push_back("*");

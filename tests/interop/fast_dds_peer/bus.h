@@ -16,7 +16,7 @@
 
 namespace peer {
 
-// The QoS columns of a topic's row in idl/README.md; all topics are reliable.
+// The QoS columns of a topic's row in docs/reference/protocol.md; all topics are reliable.
 struct TopicQos {
   bool transient_local = false;
   int keep_last = 0;  // 0: keep all
