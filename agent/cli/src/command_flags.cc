@@ -1,4 +1,4 @@
-// The flags of the program and of its commands.
+// This file has the flags of the program and of its commands.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 namespace trailcast::agent {
 namespace {
 
-// Longest time that can be asked for: a week.
+// The longest time that can be given is a week.
 constexpr double kLongest_s = 7.0 * 24.0 * 3600.0;
 
 constexpr const char* kHowItFollows = "How it follows";
@@ -79,7 +79,7 @@ void AddTerrainOptions(CLI::App& command, ReplayCommand& replay) {
       ->group(group);
 }
 
-// How a route is followed, whichever it is.
+// These flags tell how any route is followed.
 void AddFollowing(CLI::App& command, ReplayCommand& replay, DeviceUse use) {
   command.option_defaults()->group(kHowItFollows);
   command

@@ -23,12 +23,12 @@
 namespace trailcast::agent {
 namespace {
 
-// A follower's process writes nothing but copies: what was taught into the same file is on the
-// disk.
+// A follower's process writes only copies; routes taught into the same file are on the disk
+// already.
 constexpr store::SqliteOptions kOfCopies{.durability =
                                              store::SqliteOptions::Durability::kWithRoutes};
 
-// A robot on duty has more to do than to wait for a server.
+// A robot that takes missions has more to do than to wait for a server.
 constexpr double kDeliverOnDuty_s = 10.0;
 
 Result<std::unique_ptr<exchange::RouteExchange>> Join(const CommandOptions& options,
@@ -37,7 +37,7 @@ Result<std::unique_ptr<exchange::RouteExchange>> Join(const CommandOptions& opti
   return program::OpenExchange(options.common, program::WithAgents(use));
 }
 
-// Of a device that outlives whoever asks.
+// The device outlives the callers.
 std::function<program::Vitals()> VitalsOf(const RobotDevice& device,
                                           const CommandOptions& options) {
   return [&device, radio = options.common.network_interface] {
@@ -45,15 +45,15 @@ std::function<program::Vitals()> VitalsOf(const RobotDevice& device,
   };
 }
 
-// With keys only scouts may say what routes there are.
+// With keys, only scouts may announce routes.
 exchange::TopicUse FollowersTopics(const CommandOptions& options,
                                    exchange::TopicUse use = exchange::FollowerTopics()) {
   if (options.common.security.empty()) use.write_rarely.push_back(exchange::Topic::kRoutes);
   return use;
 }
 
-// A robot on duty mostly follows: it writes what a scout does rarely, and overhears requests for
-// segments, which are made again.
+// A robot that takes missions mostly follows. It rarely writes what a scout does, and only
+// overhears requests for segments, which are repeated.
 exchange::TopicUse TeachingToo(exchange::TopicUse use) {
   const exchange::TopicUse teaching = exchange::TeachingTopics();
   for (const exchange::Topic topic : teaching.write) {
@@ -65,7 +65,8 @@ exchange::TopicUse TeachingToo(exchange::TopicUse use) {
   return use;
 }
 
-// Of a robot whose camera others look through: hears what they ask, and says what they hear.
+// Adds the topics of a robot whose camera others look through: it hears their requests and answers
+// them.
 exchange::TopicUse WithGlances(exchange::TopicUse use) {
   const exchange::TopicUse theirs = exchange::GlanceTopics();
   use.read.insert(use.read.end(), theirs.write.begin(), theirs.write.end());
@@ -82,7 +83,7 @@ ScoutLinkOptions LinkOptions(const CommandOptions& options, double delivery_time
   return link;
 }
 
-// Asked before the drive, so that what is to tell of it is not lost after.
+// This is checked before the drive, so that no report on it is lost afterwards.
 Result<void> CanAllBeWritten(const std::vector<std::filesystem::path>& files) {
   for (const std::filesystem::path& file : files) {
     if (auto can = program::CanBeWritten(file); !can) return can;
@@ -135,11 +136,12 @@ FollowerOptions MakeFollowerOptions(const CommandOptions& options, const ReplayC
   follower.how.session.anywhere = replay.start == "anywhere";
   follower.how.session.else_anywhere = replay.start == "left" && !follower.open_loop;
   follower.link.from_start = replay.from_start || replay.start != "left";
-  // A robot of its own: one that is simulated here begins at the start whenever its agent does.
+  // A simulated robot of this process begins at the start whenever its agent does, so its place is
+  // not kept.
   if (!follower.open_loop && !replay.device.is_simulated()) {
     follower.link.place_file = BesideStore(options, "place");
   }
-  // A recording drives on, whatever it is told.
+  // A recording drives on, whatever the commands are.
   follower.link.hears_operators = !follower.open_loop;
   if (!follower.open_loop) follower.link.stop_file = BesideStore(options, "stop");
   follower.keep_distance.distance_m = follower.open_loop ? 0.0 : replay.keep_distance_m;
@@ -174,7 +176,7 @@ OnDutyOptions MakeOnDutyOptions(const CommandOptions& options, const ServeComman
   return duty;
 }
 
-// After a run that has arrived: whatever fails of it, the run has not.
+// This follows a run that has arrived, so its failure is not the run's.
 void RefreshRoute(const CommandOptions& options, const ReplayCommand& replay,
                   const ReplayOutcome& outcome) {
   const Refreshing how = RefreshingOf(replay.refresh);
@@ -201,7 +203,7 @@ void RefreshRoute(const CommandOptions& options, const ReplayCommand& replay,
 
 Result<int> RunServe(const CommandOptions& options, const ServeCommand& serve) {
   DeviceOptions robot = serve.replay.device;
-  robot.simulated.in_real_time = true;  // as who sends it, pauses it and looks on
+  robot.simulated.in_real_time = true;  // so that people can watch and pause it
   auto opened = OpenDevice(robot, options.common);
   if (!opened) return tl::unexpected(opened.error());
   OnDutyOptions duty = MakeOnDutyOptions(options, serve);

@@ -14,7 +14,7 @@
 
 namespace trailcast::agent {
 
-// What all commands of trailcast-agent are told.
+// The options of all commands of trailcast-agent.
 struct CommandOptions {
   program::CommonOptions common;
   std::string store_file;
@@ -34,16 +34,16 @@ struct TeachCommand {
 
 struct FetchCommand {
   std::string route;
-  std::uint32_t revision = 0;  // the newest
-  std::string scout;           // anybody
+  std::uint32_t revision = 0;  // 0 for the newest
+  std::string scout;           // empty for anybody
   double wait_s = 30.0;
 };
 
 struct ReplayCommand {
   DeviceOptions device;
   std::string route;
-  std::uint32_t revision = 0;  // the active one
-  std::string scout;           // anybody
+  std::uint32_t revision = 0;  // 0 for the active one
+  std::string scout;           // empty for anybody
   std::filesystem::path csv;
   DiagnosisOptions diagnosis;
   std::string method = "default";
@@ -56,18 +56,18 @@ struct ReplayCommand {
   double look_around_deg = kUsualLookAround_deg;
   double keep_distance_m = KeepDistanceOptions{}.distance_m;
   std::optional<double> max_slope_deg;
-  std::string max_roughness;  // empty: any
+  std::string max_roughness;  // empty for any
   bool comfort = false;
   std::string refresh = "off";
 };
 
 struct ServeCommand {
-  ReplayCommand replay;  // how it follows what it is sent along
+  ReplayCommand replay;  // how it follows on missions
   RunLogsOptions logs;
   double logs_mb = 500.0;
 };
 
-// Flags of the program and of its commands, which fill the structs.
+// Add the flags of the program and of its commands, which fill the structs.
 void AddSharedOptions(CLI::App& app, CommandOptions& options);
 void AddTeachOptions(CLI::App& command, TeachCommand& teach);
 void AddReplayOptions(CLI::App& command, ReplayCommand& replay);
@@ -75,7 +75,7 @@ void AddServeOptions(CLI::App& command, ServeCommand& serve);
 void AddFetchOptions(CLI::App& command, FetchCommand& fetch);
 void AddDeliverOptions(CLI::App& command, TeachCommand& deliver);
 
-// Each runs one command to its end and returns the process's exit status; an error is one too.
+// Each runs one command to its end and returns the process's exit status; an error is one, too.
 [[nodiscard]] Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach);
 [[nodiscard]] Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay);
 [[nodiscard]] Result<int> RunServe(const CommandOptions& options, const ServeCommand& serve);
