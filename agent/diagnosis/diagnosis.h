@@ -15,20 +15,20 @@ namespace trailcast::agent {
 class RunMcapFile;
 
 struct DiagnosisOptions {
-  std::filesystem::path log{};   // an MCAP file; empty: none
-  std::filesystem::path view{};  // a folder for pictures of the frames; empty: none
+  std::filesystem::path log{};   // an MCAP file; empty for none
+  std::filesystem::path view{};  // a folder for pictures of the frames; empty for none
   int view_every = 1;            // frames
-  // Nothing drives here, so it waits for a slow disk rather than leave frames out of the log.
+  // Waits for a slow disk instead of leaving frames out of the log, because nothing drives here.
   bool patient = false;
-  double picture_every_s = kEveryPicture_s;  // in the log; 0: none
-  // Then a log has no more frames, and says so; 0: any number.
+  double picture_every_s = kEveryPicture_s;  // in the log; 0 for none
+  // Beyond this size a log gets no more frames, and says so; 0 for no bound.
   std::uint64_t most_log_bytes = 0;
-  Fields header{};  // of the log, besides what is known of the run
+  Fields header{};  // of the log, in addition to the known facts of the run
 };
 
-// What a replay tells of itself while it runs: a log, and pictures of what it saw. A disk that
-// fails stops neither the robot nor the loop; the error comes at the end. Pictures are drawn and
-// written by the caller's thread: for robots that have the time, recorded and simulated ones.
+// Writes a replay's log, and pictures of what it saw, while it runs. A disk that fails stops
+// neither the robot nor the loop; the error comes at the end. The caller's thread draws and writes
+// pictures, for robots that have the time: recorded and simulated ones.
 class Diagnosis {
  public:
   ~Diagnosis();
@@ -39,7 +39,7 @@ class Diagnosis {
   [[nodiscard]] static Result<Diagnosis> Open(const DiagnosisOptions& options);
 
   void Begin(const RunFacts& facts);
-  // After each Observe or Pass, while the frame that `session` was given is there.
+  // Must be called after each Observe or Pass, while the session's frame is still there.
   void Add(const RunFrame& seen, const ReplaySession& session, const ReplayStep& step);
   void Note(const std::string& what, const std::string& text);
   [[nodiscard]] Result<void> End(const std::string& state, const std::string& reason);

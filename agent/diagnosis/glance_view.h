@@ -9,25 +9,24 @@
 
 namespace trailcast::agent {
 
-// What a robot's camera sees, and what it makes of that.
+// A camera's frame, and what the robot makes of it.
 struct GlanceFrame {
   image::GrayImage picture{};
   std::vector<replay::FeatureView> features{};
-  int stored = 0;  // features that the segment has
-  std::optional<double>
-      turn_rad{};  // asked for, positive to the right; nothing: it does not follow
+  int stored = 0;                    // features that the segment has
+  std::optional<double> turn_rad{};  // positive to the right; nothing if it does not follow
 
-  // It follows features of its segment, which are drawn.
+  // Says whether it follows features of its segment, which are drawn.
   [[nodiscard]] bool marked() const { return turn_rad && stored > 0; }
 };
 
-// The frame, at most 320 pixels wide, for those who are far away: each feature with a line to where
-// it will be at the milestone, in its verdict's colour and shape (a disc inside its funnel lane, a
-// triangle to the side that it asks for, a cross rejected, with a line to where it should be); in a
-// strip below, of a robot that follows, the turn that is asked for.
+// Draws the frame, at most 320 pixels wide, for viewers at a distance. Each feature has a line to
+// where it will be at the milestone, in its verdict's colour and shape: a disc inside its funnel
+// lane, a triangle to the side that it asks for, and a cross if it is rejected, with a line to
+// where it should be. A strip below shows the turn that a following robot asks for.
 [[nodiscard]] image::RgbImage DrawGlance(const GlanceFrame& frame);
 
-// The same in words, of ASCII.
+// Returns the same in words of ASCII.
 [[nodiscard]] std::string GlanceText(const GlanceFrame& frame);
 
 }  // namespace trailcast::agent

@@ -8,15 +8,15 @@
 
 namespace trailcast::agent {
 
-// What was decided, frame by frame; kept in memory, because the control loop touches no disk.
+// Keeps the decisions of all frames in memory, because the control loop touches no disk.
 class ReplayLog {
  public:
   void Add(SensorTime stamp, const ReplayStep& step, double cpu_ms);
 
   [[nodiscard]] std::size_t frames() const { return rows_.size(); }
-  // CPU time of a step; 0 without frames.
+  // Returns the CPU time of a step, or 0 without frames.
   [[nodiscard]] double MedianMs() const;
-  // frame,segment,progress,features,turn_rad,state and more: see docs/reference/agent.md.
+  // Writes frame,segment,progress,features,turn_rad,state and more; see docs/reference/agent.md.
   [[nodiscard]] Result<void> WriteCsv(const std::filesystem::path& file) const;
 
  private:

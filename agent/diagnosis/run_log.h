@@ -10,9 +10,9 @@
 
 namespace trailcast::agent {
 
-// A replay's log as values; idl/run_log.proto has the messages in its file.
+// These are the values of a replay's log; idl/run_log.proto has the messages of its file.
 
-// What the robot was at in a frame: ReplayState and Trust in one word.
+// The robot's activity in a frame: ReplayState and Trust in one word.
 enum class Phase {
   kWaiting,
   kSeeking,
@@ -29,14 +29,14 @@ enum class Phase {
 [[nodiscard]] const char* ToString(Phase phase);
 [[nodiscard]] std::optional<Phase> ParsePhase(const std::string& word);
 
-// Named values in the order in which they were said.
+// Named values in the order in which they were added.
 class Fields {
  public:
   void Add(std::string key, std::string value) {
     all_.emplace_back(std::move(key), std::move(value));
   }
   [[nodiscard]] std::optional<std::string> Find(const std::string& key) const;
-  // Nothing where there is none, or no number.
+  // Returns nothing if there is no such value, or it is no number.
   [[nodiscard]] std::optional<double> Number(const std::string& key) const;
   [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& all() const { return all_; }
 
@@ -44,16 +44,16 @@ class Fields {
   std::vector<std::pair<std::string, std::string>> all_;
 };
 
-// One frame. Empty: the robot or the method has no such thing.
+// One frame. A value is empty if the robot or the method does not have it.
 struct FrameRow {
   int frame = 0;
   double t_s = 0.0;
   int segment = 0;
   double fraction = 0.0;  // of the segment
-  double progress = 0.0;  // of the route
+  double progress = 0.0;  // of the segment
   Phase phase = Phase::kWaiting;
-  // Features: of the segment, followed, agreeing with the route, not agreeing and by how much, and
-  // lost since the frame before.
+  // Numbers of features: in the segment, followed, agreeing with the route, not agreeing and by how
+  // much, and lost since the frame before.
   int stored = 0;
   int tracked = 0;
   int agreeing = 0;
@@ -61,13 +61,13 @@ struct FrameRow {
   double rejected_by_px = 0.0;
   int left_picture = 0;
   int not_returned = 0;
-  // Turns asked for, positive to the right.
+  // The commanded turns, positive to the right.
   double turn_rad = 0.0;
   std::optional<double> vision_turn_rad;
   std::optional<double> odometry_turn_rad;
   std::optional<double> delta;
   std::optional<double> delta_minus;
-  // Estimated place beside the path, positive to the left.
+  // The estimated offset from the path, positive to the left.
   std::optional<double> left_m;
   std::optional<double> left_sigma_m;
   std::optional<double> heading_rad;
@@ -81,8 +81,8 @@ struct FrameRow {
   double linear_mps = 0.0;
   double angular_radps = 0.0;
   double cpu_ms = 0.0;
-  std::optional<double> true_off_m;  // simulated trials: true distance from the taught path
-  // By the belief over the whole route: the likeliest place, as shares of what is known of it.
+  std::optional<double> true_off_m;  // true distance from the taught path, in simulated trials
+  // The most likely place by the belief over the whole route, as shares of the known part.
   std::optional<double> place;
   std::optional<double> place_sigma;
   std::optional<double> off_route;  // probability
@@ -108,9 +108,9 @@ struct RunLog {
   Fields header;
   std::vector<FrameRow> frames;
   std::vector<RunEvent> events;
-  std::vector<std::string> damage;  // what could not be read: the first of it
-  std::size_t damaged = 0;          // all of it
-  std::optional<RunEvent> ending;   // nothing: the log breaks off
+  std::vector<std::string> damage;  // the first of what could not be read
+  std::size_t damaged = 0;          // how much could not be read
+  std::optional<RunEvent> ending;   // nothing if the log breaks off
 };
 
 }  // namespace trailcast::agent

@@ -14,29 +14,31 @@
 
 namespace trailcast::agent {
 
-// A file that grows while the control loop drives: a thread of its own writes it, so that a slow
-// disk holds up nobody, and hands it to the system at once. All calls from one thread.
+// A file that grows while the control loop drives. A thread of its own writes it, so that a slow
+// disk delays nobody, and passes everything to the system at once. All calls must come from one
+// thread.
 class RunLogFile {
  public:
-  // What comes next into the file; called by its thread.
+  // Returns the next bytes of the file; the file's thread calls it.
   using Make = std::function<bag::Bytes()>;
 
-  // Replaces the file; the error names it. `capacity`: how much may wait for the disk.
+  // Replaces the file; the error names it. `capacity` is how many parts may wait for the disk.
   [[nodiscard]] static Result<std::unique_ptr<RunLogFile>> Create(const std::filesystem::path& file,
                                                                   std::size_t capacity);
   ~RunLogFile();
   RunLogFile(const RunLogFile&) = delete;
   RunLogFile& operator=(const RunLogFile&) = delete;
 
-  // Never waits. False, with `make` untouched: there is no room, since the disk does not keep up.
+  // Adds a part without waiting. Returns false, and leaves `make` untouched, if there is no room
+  // because the disk does not keep up.
   [[nodiscard]] bool TryPut(Make&& make) {
     const bool put = waiting_.TryPut(std::move(make));
     bell_.Ring();
     return put;
   }
-  // Written so far.
+  // Returns how much was written so far.
   [[nodiscard]] std::uint64_t bytes() const { return bytes_.load(); }
-  // Everything is written, `last` behind it; the error says what was not.
+  // Writes everything, and `last` behind it; the error says what was not written.
   [[nodiscard]] Result<void> Close(const Make& last = [] { return bag::Bytes(); });
 
  private:

@@ -13,30 +13,31 @@
 
 namespace trailcast::agent {
 
-// What became of one frame, or a word between two.
+// One frame's results, or an event between two frames.
 struct RunMoment {
-  std::optional<Fields> header{};  // of the run; again where another route begins
+  std::optional<Fields> header{};  // of the run; repeated where another route begins
   std::vector<RunEvent> events{};
-  std::optional<SensorTime> stamp{};  // of a frame; a word has that of the frame before
+  std::optional<SensorTime> stamp{};  // of the frame; an event has that of the frame before
   std::optional<FrameRow> row{};
   std::optional<motion::Pose2> odometry{};
-  image::GrayImage picture{};  // empty: none
+  image::GrayImage picture{};  // may be empty
   std::vector<replay::FeatureView> features{};
 };
 
-// Seconds between the pictures in a log; 0: it has none, and no features. Cameras are slower than
-// this: each frame has one.
+// Seconds between the pictures in a log; with 0 it has none, and no features. Cameras are slower
+// than this value, so each frame has one.
 inline constexpr double kEveryPicture_s = 1e-6;
 
-// A replay's log, an MCAP file for readers and viewers: README.md lists its topics,
-// idl/viewers.proto and idl/run_log.proto their messages. No disk, no clock, no thread.
+// A replay's log as an MCAP file for readers and viewers. README.md lists its topics;
+// idl/viewers.proto and idl/run_log.proto have their messages. It uses no disk, no clock and no
+// thread.
 class RunMcap {
  public:
   explicit RunMcap(double picture_every_s = kEveryPicture_s);
   void Add(const RunMoment& moment);
   void End();
-  // Returns what has been made since the last time: the first frame and what is said between frames
-  // come at once, other frames by the second.
+  // Returns the bytes made since the last call: the first frame and events come at once, and other
+  // frames by the second.
   [[nodiscard]] bag::Bytes TakeBytes() { return writer_.TakeBytes(); }
 
  private:
@@ -62,8 +63,8 @@ class RunMcap {
   SensorTime at_{0};
   std::optional<SensorTime> chunk_began_;
   std::optional<SensorTime> pictured_at_;
-  std::vector<RunMoment> early_;  // before the first frame, whose time they will have
-  // The way so far: not a pose a frame, but one each spacing_m_, which grows with the way.
+  std::vector<RunMoment> early_;  // before the first frame, whose time they will get
+  // The path so far, with one pose each spacing_m, which grows with the path's length.
   std::vector<motion::Pose2> way_;
   double spacing_m_ = 0.05;
   std::size_t poses_since_path_ = 0;

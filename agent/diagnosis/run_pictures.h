@@ -13,23 +13,22 @@
 
 namespace trailcast::agent {
 
-// This finds the pictures in a replay's log by the times of frames. One thread at a time may use
-// it.
+// Finds the pictures of a replay's log by the times of frames. It is not thread-safe.
 class RunPictures {
  public:
-  // The largest that is handed out.
+  // Larger pictures are not returned.
   static constexpr std::size_t kMostPictureBytes = 4U << 20U;
 
-  // Errors: no MCAP file, or one without pictures and features.
+  // Errors: the file is no MCAP file, or has no pictures and features.
   [[nodiscard]] static Result<std::unique_ptr<RunPictures>> Open(const std::filesystem::path& file);
 
-  // Of the frame of that time; none: the log has none of it.
+  // Returns the features of the frame of that time, if the log has any.
   [[nodiscard]] Result<std::vector<SeenFeature>> FeaturesAt(double t_s);
   struct Picture {
     double t_s = 0.0;  // of its frame
     std::vector<std::uint8_t> jpeg;
   };
-  // The last until then.
+  // Returns the last picture up to that time.
   [[nodiscard]] Result<std::optional<Picture>> PictureUntil(double t_s);
 
  private:

@@ -12,7 +12,7 @@
 
 namespace trailcast::agent {
 
-// What a log says of the run before its first frame.
+// The facts of the run that the log has before its first frame.
 struct RunFacts {
   route::RouteInfo route;  // as far as it is known by then
   std::string robot;
@@ -25,7 +25,7 @@ struct RunFrame {
   SensorTime stamp{0};
   std::optional<motion::Pose2> odometry;
   double cpu_ms = 0.0;
-  std::optional<double> true_off_m;  // simulated trials: true distance from the taught path
+  std::optional<double> true_off_m;  // true distance from the taught path, in simulated trials
 };
 
 // A frame's row, and the events in it.
@@ -34,12 +34,12 @@ struct RecordedFrame {
   std::vector<RunEvent> events;
 };
 
-// Makes a replay's log, as values, out of its steps. No disk, no clock.
+// Makes the values of a replay's log from its steps, without a disk or a clock.
 class RunRecorder {
  public:
   [[nodiscard]] static Fields Begin(const RunFacts& facts);
   [[nodiscard]] RecordedFrame Add(const RunFrame& frame, const ReplayStep& step);
-  // Something that the control loop alone knows of.
+  // Notes an event that only the control loop knows.
   [[nodiscard]] RunEvent Note(const std::string& what, const std::string& text) const;
   [[nodiscard]] RunEvent End(const std::string& state, const std::string& reason) const;
 

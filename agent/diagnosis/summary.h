@@ -10,12 +10,12 @@
 
 namespace trailcast::agent {
 
-// How a run ended: names and values, in order, for people (a line each) and, as key=value lines in
-// a file, for tools.
+// How a run ended, as names and values in order: a line each for people, and key=value lines in a
+// file for tools.
 class Summary {
  public:
   void Add(std::string key, std::string value);
-  // Its name, id, revision, segments, metres and bytes.
+  // Adds its name, id, revision, segments, metres and bytes.
   void AddRoute(const route::RouteInfo& route);
 
   [[nodiscard]] const std::string* Find(const std::string& key) const;

@@ -81,7 +81,7 @@ void Diagnosis::Note(const std::string& what, const std::string& text) {
 
 Result<void> Diagnosis::End(const std::string& state, const std::string& reason) {
   if (!log_) return view_result_;
-  // A run that found no route has a log all the same: it says why.
+  // A run that found no route has a log as well, which says why.
   if (!begun_) Begin({});
   if (auto closed = log_->Close({.events = {recorder_.End(state, reason)}}); !closed) return closed;
   return view_result_;

@@ -16,7 +16,7 @@ constexpr int kPanelHeight_px = 96;
 constexpr double kTextHeight_px = 11.0;
 constexpr double kLine_px = 22.0;
 constexpr double kMargin_px = 10.0;
-// From the middle to the side that is asked for.
+// Draws from the middle to the side of the turn.
 void DrawTurn(Canvas& canvas, double turn_rad, double y) {
   const double half = 0.5 * canvas.picture().width;
   const double share = std::clamp(turn_rad / kFullTurn_rad, -1.0, 1.0);
@@ -107,7 +107,7 @@ image::RgbImage DrawFrameView(const image::GrayImage& frame, const ReplayStep& s
   for (const replay::FeatureView& feature : features) {
     canvas.Disc(enlarged.At(feature.at), 4.0, VerdictColor(feature.verdict));
   }
-  // What lies outside the picture (a milestone often does) shall not cross the text.
+  // Lines to places outside the picture, where milestones often are, must not cross the text.
   canvas.FillBox({0.0, static_cast<double>(height)},
                  {static_cast<double>(width), static_cast<double>(height + kPanelHeight_px)},
                  kPanel);

@@ -11,20 +11,20 @@
 
 namespace trailcast::agent {
 
-// The frame as the robot understands it, enlarged to 640 pixels or more: each feature a disc in its
-// verdict's colour (green inside its funnel lane, orange asks for right, blue for left, red
-// rejected) with a line to where it will be at the milestone, a rejected one's to where it should
-// be now; below, what was decided.
+// Draws the frame as the robot understands it, enlarged to 640 pixels or more. Each feature is a
+// disc in its verdict's colour (green inside its funnel lane, orange if it asks for right, blue for
+// left, red if rejected) with a line to where it will be at the milestone, or for a rejected one to
+// where it should be now. The decision is written below.
 [[nodiscard]] image::RgbImage DrawFrameView(const image::GrayImage& frame, const ReplayStep& step,
                                             std::span<const replay::FeatureView> features);
 
-// What this and other drawings of a frame share.
+// Other drawings of a frame share these.
 inline constexpr image::Color kPanel{24, 24, 24};
 inline constexpr image::Color kInk{235, 235, 235};
-// A turn of this size fills half the bar below.
+// A turn of this size fills half of the bar.
 inline constexpr double kFullTurn_rad = 0.3;
 
-// From pixels about the frame's centre to a picture so many times as large.
+// Converts pixels about the frame's centre to those of an enlarged picture.
 struct Scaled {
   const image::GrayImage& frame;
   double times = 1.0;
@@ -35,12 +35,12 @@ struct Scaled {
   }
 };
 
-// Each feature's line, in its verdict's colour.
+// Draws each feature's line in its verdict's colour.
 void DrawLines(image::Canvas& canvas, const Scaled& scaled,
                std::span<const replay::FeatureView> features);
 [[nodiscard]] std::ptrdiff_t CountOf(std::span<const replay::FeatureView> features,
                                      replay::FeatureVerdict verdict);
-// Where a feature's line leads.
+// Returns where a feature's line leads.
 [[nodiscard]] const route::TrackedFeature& TargetOf(const replay::FeatureView& feature);
 [[nodiscard]] image::RgbImage InGrey(const image::GrayImage& frame);
 

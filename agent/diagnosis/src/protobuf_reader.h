@@ -8,15 +8,15 @@
 
 namespace trailcast::agent {
 
-// The fields of a Protobuf message that may be anybody's, one after the other. What is not whole
-// ends it.
+// Reads the fields of a Protobuf message, which may come from anybody, one after the other. A
+// damaged field ends it.
 class ProtobufReader {
  public:
   struct Field {
     std::uint64_t number = 0;
-    std::span<const std::uint8_t> bytes;  // of a message, a text; else none
-    double real = NAN;                    // of a double; else no number
-    std::uint64_t integer = 0;            // of an integer; else 0
+    std::span<const std::uint8_t> bytes;  // of a message or a text; otherwise empty
+    double real = NAN;                    // of a double; otherwise NaN
+    std::uint64_t integer = 0;            // of an integer; otherwise 0
   };
 
   explicit ProtobufReader(std::span<const std::uint8_t> message) : left_(message) {}
@@ -45,7 +45,7 @@ class ProtobufReader {
     if (failed_) return std::nullopt;
     return field;
   }
-  // Once there is no next field: whether that was the message's end.
+  // Says, once there is no next field, whether that was the message's end.
   [[nodiscard]] bool whole() const { return !failed_; }
 
  private:

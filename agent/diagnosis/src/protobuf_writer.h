@@ -7,8 +7,8 @@
 
 namespace trailcast::agent {
 
-// The bytes of a Protobuf message (protobuf.dev/programming-guides/encoding), field by field. The
-// generated code of messages that hold a google.protobuf.Timestamp would need all of the library,
+// Writes the bytes of a Protobuf message (protobuf.dev/programming-guides/encoding), field by
+// field. Generated code for messages with a google.protobuf.Timestamp would need the whole library,
 // which robots do without.
 class ProtobufWriter {
  public:

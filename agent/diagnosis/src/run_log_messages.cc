@@ -17,7 +17,7 @@ using Bytes = std::span<const std::uint8_t>;
 using Field = ProtobufReader::Field;
 
 constexpr std::size_t kLongestValue = 1000;  // of texts
-// Logs without pictures pack to a tenth or so: what unpacks to more than this was made to keep its
+// Logs without pictures compress to a tenth or so. A file that expands more was made to keep its
 // readers busy.
 constexpr std::uint64_t kMostGrowth = 32;
 
@@ -66,7 +66,7 @@ const std::array kMembers = std::to_array<Member>({
     &FrameRow::evidence,
 });
 
-// Protobuf has negative numbers in 64 bits.
+// Protobuf encodes negative numbers in 64 bits.
 void Put(ProtobufWriter& to, std::uint32_t field, int value) {
   to.Number(field, static_cast<std::uint64_t>(std::int64_t{value}));
 }
@@ -94,7 +94,7 @@ void Put(ProtobufWriter& to, std::uint32_t field, const Fields& fields) {
   }
 }
 
-// False: there is no such value.
+// Returns false if there is no such value.
 bool Take(const Field& field, int& value) {
   value = static_cast<int>(field.integer);
   return true;
@@ -123,7 +123,7 @@ std::string TextOf(const Field& field) {
                    kLongestValue);
 }
 
-// Each field of a message is given to `take`, which says whether it can be.
+// Calls `take` with each field of a message; it says whether the field is valid.
 template <typename TakeField>
 Result<void> ReadAll(Bytes message, const TakeField& take) {
   if (message.size() > kLongestMessage) {

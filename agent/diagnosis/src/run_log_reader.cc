@@ -43,14 +43,14 @@ class Reader {
   Reader(bag::Bag& bag, const ReadLimits& limits) : bag_(bag), limits_(limits) {}
 
   Result<void> Header() { return Read(kHeaderTopic, &Reader::TakeHeader, {}, 1); }
-  // From then on, at most so many.
+  // Reads at most so many from that time on.
   Result<void> Frames(nanoseconds from = {}, std::size_t most = kAll) {
     return Read(kFrameTopic, &Reader::TakeFrame, from, most);
   }
   Result<void> Events(nanoseconds from = {}, std::size_t most = kAll) {
     return Read(kEventTopic, &Reader::TakeEvent, from, most);
   }
-  // `name`: the file's, with which what is damaged of it begins.
+  // `name` is the file's, with which lines on its damage begin.
   [[nodiscard]] RunLog Finish(const std::string& name) && {
     for (std::string what : bag_.damage()) {
       if (what.starts_with(name + ": ")) what.erase(0, name.size() + 2);
@@ -143,7 +143,7 @@ Result<RunLog> ReadRunLog(const std::filesystem::path& file, const ReadLimits& l
 
 Result<RunLog> ReadRunEnds(const std::filesystem::path& file) {
   return ReadAs(file, {}, true).map([](RunLog log) {
-    // The first frame of a short log is one of its last, too, and came again.
+    // A short log's first frame is also one of its last, and was read twice.
     log.damage.clear();
     log.damaged = 0;
     return log;

@@ -13,10 +13,10 @@ namespace trailcast::agent {
 namespace {
 
 constexpr int kJpegQuality = 85;
-// What a program that crashes loses at most.
+// A program that crashes loses at most this.
 constexpr std::chrono::seconds kChunk{1};
 constexpr std::size_t kMostOfTheWay = 512;
-// How often the way so far is told.
+// The path so far is written this often.
 constexpr std::size_t kPosesAPath = 16;
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace trailcast::agent {
 namespace {
 
-// Four seconds of frames, which have a picture each.
+// This is four seconds of frames with a picture each.
 constexpr std::size_t kMostWaiting = 128;
 constexpr std::chrono::milliseconds kRoomComes{1};
 

@@ -7,16 +7,16 @@
 
 namespace trailcast::agent {
 
-// A replay's log in its file, made and written by a thread of its own.
+// The file of a replay's log, made and written by a thread of its own.
 class RunMcapFile {
  public:
-  // The error: the file cannot be made.
+  // The error is that the file cannot be made.
   [[nodiscard]] static Result<std::unique_ptr<RunMcapFile>> Create(
       const std::filesystem::path& file, double picture_every_s);
   [[nodiscard]] std::uint64_t bytes() const { return file_->bytes(); }
 
-  // Where making or writing does not keep up, this waits, or, unless `patient`, frames are dropped;
-  // the log says how many.
+  // If making or writing does not keep up, this waits or, unless `patient`, drops frames; the log
+  // says how many.
   void Put(RunMoment moment, bool patient);
   // `last` is never dropped.
   [[nodiscard]] Result<void> Close(RunMoment last);
@@ -27,9 +27,9 @@ class RunMcapFile {
 
   void TellDropped(RunMoment& next) const;
 
-  RunMcap mcap_;  // the file's thread's
+  RunMcap mcap_;  // for the file's thread
   std::unique_ptr<RunLogFile> file_;
-  std::size_t dropped_ = 0;  // since the last one that found room
+  std::size_t dropped_ = 0;  // since the last one that had room
 };
 
 }  // namespace trailcast::agent

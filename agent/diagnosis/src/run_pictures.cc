@@ -12,13 +12,13 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// A row has seconds since 1970, perhaps, in a double.
+// A row's time may be seconds since 1970 in a double.
 constexpr nanoseconds kRounded = std::chrono::microseconds(1);
 // An older picture shows another place.
 constexpr std::chrono::seconds kOldest{3};
 
 nanoseconds At(double t_s) {
-  constexpr double kLatest_s = 9e9;  // within what nanoseconds count
+  constexpr double kLatest_s = 9e9;  // within the range of nanoseconds
   return FromSeconds(std::clamp(t_s, 0.0, kLatest_s));
 }
 

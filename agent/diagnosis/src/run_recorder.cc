@@ -44,7 +44,7 @@ const char* WhatOf(SearchKind kind) {
   return "recovered";
 }
 
-// The widened funnel says where the robot is; the paper's method has two halves of a turn and
+// The widened funnel gives the robot's place; the paper's method gives two halves of a turn and
 // delta.
 void FillDecision(const replay::FollowStep& decision, bool odometry, FrameRow& row) {
   if (decision.offset) {

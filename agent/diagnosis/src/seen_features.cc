@@ -30,7 +30,7 @@ Point ReadPoint(Bytes message) {
   return point;
 }
 
-// That whose colour is the most like it.
+// Returns the verdict whose colour is the most similar.
 FeatureVerdict ReadVerdict(Bytes message) {
   std::array<double, 3> seen{};
   ProtobufReader reader(message);

@@ -15,7 +15,7 @@ constexpr std::uint64_t kInfo = 2;
 constexpr std::uint64_t kWarning = 3;
 constexpr std::uint64_t kError = 4;
 
-// google.protobuf.Timestamp, in field 1 of all of them. `at` is not negative.
+// All of them have a google.protobuf.Timestamp in field 1. `at` must not be negative.
 ProtobufWriter Stamped(SensorTime at) {
   const auto seconds = std::chrono::floor<std::chrono::seconds>(at);
   ProtobufWriter timestamp;

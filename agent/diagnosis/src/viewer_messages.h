@@ -14,10 +14,10 @@ namespace trailcast::agent {
 inline constexpr const char* kPicturesTopic = "/camera/image";
 inline constexpr const char* kFeaturesTopic = "/camera/features";
 
-// The messages of idl/viewers.proto, as bytes.
+// These return the messages of idl/viewers.proto as bytes.
 [[nodiscard]] std::string PictureMessage(SensorTime at, std::span<const std::uint8_t> jpeg);
-// A disc a feature, and a line to where it will be at the milestone, in its verdict's colour; of a
-// rejected one to where it should be. On a picture of that size.
+// Has a disc for each feature, and a line in its verdict's colour to where it will be at the
+// milestone, or for a rejected one to where it should be, on a picture of that size.
 [[nodiscard]] std::string FeaturesMessage(SensorTime at,
                                           std::span<const replay::FeatureView> features, int width,
                                           int height);
