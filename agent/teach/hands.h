@@ -11,21 +11,21 @@
 
 namespace trailcast::agent {
 
-// How a robot that teaches is driven from afar: what operators say comes in by the link's thread,
-// and is asked for by the control loop, which waits for nothing. No clock of its own.
+// Lets operators drive a teaching robot remotely. The link's thread takes their commands, and the
+// control loop asks for them without waiting. It has no clock of its own.
 class Hands {
  public:
   using Time = mission::DriverSeat::Time;
 
-  // The link's thread.
+  // For the link's thread.
   void Hear(const exchange::DriveCommand& command, Time now);
   void Tell(const Hold& hold);
 
-  // The control loop, once a frame; what follows is as it was then.
+  // For the control loop, once a frame; the functions below then return the state at that moment.
   void Take();
   [[nodiscard]] const Hold& hold() const { return hold_; }
-  // What the robot is to be told: to stand, where it is held or its driver has fallen silent.
-  // Nothing: nobody drives it from here, which is not to say that nobody does.
+  // Returns the command for the robot: to stop, if it is held or its driver has fallen silent. It
+  // is nothing if nobody drives it from here, although somebody else may.
   [[nodiscard]] std::optional<motion::VelocityCommand> Wanted(Time now) const;
 
  private:
@@ -34,9 +34,9 @@ class Hands {
     Time at{};
   };
 
-  Hold told_;  // the link's thread
+  Hold told_;  // for the link's thread
   Mailbox<Hold> holds_{16};
-  // A loop that lets more than these lie is not driving.
+  // A loop that lets more than these wait is not driving.
   Mailbox<Word> words_{64};
   Hold hold_;
   mission::DriverSeat seat_;

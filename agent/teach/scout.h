@@ -22,15 +22,15 @@ struct ScoutOptions {
   ScoutLinkOptions link;
   std::vector<std::string> tags;      // in any order
   std::optional<route::Place> place;  // where the drive begins
-  bool review = false;                // no robot is to follow it before an operator activates it
+  bool review = false;                // no robot follows it before an operator activates it
   Unfinished unfinished = Unfinished::kKeep;
   vision::IntakeOptions intake = {};
-  Glances* glances = nullptr;  // for those who look through its camera; null: nobody does
+  Glances* glances = nullptr;  // for people who look through its camera; may be null
 };
 
-// Teaches a route with what `device` sees until its drive is over or `options.link.stop` says so.
-// `exchange` may be null: then the route is stored and not sent. The error says why no route, or
-// only part of one, was taught, and what is kept where.
+// Teaches a route with what `device` sees until its drive is over or `options.link.stop` returns
+// true. `exchange` may be null; the route is then stored but not sent. The error says why no route,
+// or only part of one, was taught, and what is kept where.
 [[nodiscard]] Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
                                     std::unique_ptr<store::RouteStore> store,
                                     std::unique_ptr<exchange::RouteExchange> exchange);
@@ -38,21 +38,21 @@ struct ScoutOptions {
 struct Taught {
   enum class End {
     kComplete,
-    kDiscarded,    // as an operator has cancelled it
-    kInterrupted,  // by `options.link.stop`: what was taught is kept, cut off
+    kDiscarded,    // because an operator has cancelled it
+    kInterrupted,  // by `options.link.stop`: the taught part is kept, cut off
   };
   End end = End::kComplete;
-  bool delivered = false;  // to a server; otherwise what is taught is in the store, for later
+  bool delivered = false;  // a server has it; otherwise it is in the store, for later
   std::string text{};      // one line for people: what was taught, and where it is
 };
 
-// The same of a robot whose drive operators end, and which is driven by `hands` where somebody
-// does. A server is no condition: what none has confirmed in time stays in the store.
+// Does the same for a robot whose drive operators end, and whom they drive by `hands` if they wish.
+// It needs no server: segments that none has acknowledged in time stay in the store.
 [[nodiscard]] Result<Taught> TeachByHand(RobotDevice& device, const ScoutOptions& options,
                                          Hands& hands, std::unique_ptr<store::RouteStore> store,
                                          std::unique_ptr<exchange::RouteExchange> exchange);
 
-// Sends what earlier runs left without a receipt, and waits for the receipts.
+// Sends segments that earlier runs left without an acknowledgement, and waits for that.
 [[nodiscard]] Result<Summary> DeliverBacklog(const ScoutLinkOptions& options,
                                              std::unique_ptr<store::RouteStore> store,
                                              std::unique_ptr<exchange::RouteExchange> exchange);

@@ -7,8 +7,8 @@
 
 namespace trailcast::agent {
 
-// What is in an agent's store, for people: a line a revision, the newest first, and what may become
-// of those that were cut off. `store_file` is for these words.
+// Returns the contents of an agent's store for people: a line for each revision, the newest first,
+// and what can be done about those that were cut off. `store_file` appears in these lines.
 [[nodiscard]] Result<std::string> TeachingsText(store::RouteStore& store,
                                                 const std::string& store_file);
 

@@ -10,23 +10,23 @@
 
 namespace trailcast::agent {
 
-// What becomes of an earlier teaching of the route that was cut off, before it is taught (again).
+// The treatment, before a route is taught, of an earlier teaching of it that was cut off.
 enum class Unfinished : std::uint8_t {
   kAsk = 0,      // on a terminal; without one it is kept
-  kKeep = 1,     // as it is: no robot follows it unless an operator activates it
-  kGoOn = 2,     // it is taught on from where it ended
-  kDiscard = 3,  // nobody is offered it again
+  kKeep = 1,     // no robot follows it unless an operator activates it
+  kGoOn = 2,     // the teaching continues where it ended
+  kDiscard = 3,  // it is never offered again
 };
 
-// "ask", "keep", "go-on", "discard".
+// Convert to and from "ask", "keep", "go-on", "discard".
 [[nodiscard]] std::vector<std::string> UnfinishedNames();
 [[nodiscard]] Unfinished UnfinishedOf(const std::string& name);
 
-// "an earlier teaching of route 'hall' was cut off: a3f9c21@1, 5 segments, 12.3 m, .."
+// Returns "an earlier teaching of route 'hall' was cut off: a3f9c21@1, 5 segments, 12.3 m, ..".
 [[nodiscard]] std::string DescribeUnfinished(const route::RouteInfo& cut_off);
 
-// Asks whoever sits at the terminal until the answer is understood; keeps where there is no
-// terminal, nobody answers any more, or `stop` says so.
+// Asks the person at the terminal until the answer is understood. It keeps the teaching if there is
+// no terminal, nobody answers any more, or `stop` returns true.
 [[nodiscard]] Unfinished AskOnTerminal(const route::RouteInfo& cut_off,
                                        const std::function<bool()>& stop);
 

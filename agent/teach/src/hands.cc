@@ -10,7 +10,7 @@ void Hands::Hear(const exchange::DriveCommand& command, Time now) {
 
 void Hands::Tell(const Hold& hold) {
   if (hold == told_) return;
-  // Full: told the next time.
+  // If the queue is full, the next call repeats it.
   if (holds_.TryPut(Hold(hold))) told_ = hold;
 }
 

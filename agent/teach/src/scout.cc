@@ -37,23 +37,23 @@ route::RouteInfo NewRoute(const ScoutOptions& options, const RobotDevice& device
   return info;
 }
 
-// What the control loop counts.
+// The control loop's counts.
 struct Drive {
   int frames = 0;
   std::size_t features = 0;  // in finished segments
-  double handed_m = 0.0;     // in those that were handed over
+  double handed_m = 0.0;     // in segments that were passed on
   bool has_odometry = false;
   bool dark = false;
-  bool reverse = false;                                       // is driven backwards
+  bool reverse = false;                                       // it drives backwards
   double turned_rad = 0.0;                                    // on the spot, at the end
   teach::ViewWeakness weakness = teach::ViewWeakness::kNone;  // the last frame had too few features
-  Result<void> driven;  // to its end, or what kept it from that
+  Result<void> driven;  // up to its end, or why it did not get there
 };
 
-// How fast the robot is by its odometry, which at the rate of pictures alone would jump.
+// Measures the robot's speed by its odometry. From picture to picture the speed would jump.
 class Pace {
  public:
-  // Forwards positive; 0 without odometry.
+  // Returns the speed, positive forwards, or 0 without odometry.
   double Measure(const Observation& now) {
     if (!now.odometry) return 0.0;
     places_.emplace_back(now.stamp, *now.odometry);
@@ -68,7 +68,7 @@ class Pace {
   std::deque<std::pair<SensorTime, motion::Pose2>> places_;
 };
 
-// Hands a finished segment over; never waits for it.
+// Passes a finished segment on without waiting.
 Result<void> PassOn(route::Segment segment, ScoutLink& link, Drive& drive) {
   drive.features += segment.features.size();
   drive.has_odometry = segment.has_odometry;
@@ -85,7 +85,7 @@ void TellDarkness(const TeachStep& step, Drive& drive) {
   drive.dark = step.too_few_features;
 }
 
-// At once, while the path can still be driven again.
+// It is told at once, while the path can still be driven again.
 void TellWeakness(const TeachStep& step, Drive& drive) {
   if (step.weakness == drive.weakness) return;
   drive.weakness = step.weakness;
@@ -108,7 +108,7 @@ void TellWeakness(const TeachStep& step, Drive& drive) {
   }
 }
 
-// What came of the drive so far is taken back, and comes again.
+// Takes back the results of the drive so far, which come again.
 Result<void> BeginAnew(const TaughtAnew& anew, const Observation& observation, ScoutLink& link,
                        Drive& drive) {
   spdlog::warn(
@@ -123,7 +123,7 @@ Result<void> BeginAnew(const TaughtAnew& anew, const Observation& observation, S
   return Fail(ErrorCode::kUnavailable, "the store does not keep up with teaching");
 }
 
-// Of a drive that is over.
+// Only for a drive that is over.
 void TellMount(const TeachSession& session, const Drive& drive) {
   if (session.turns_told() || !drive.has_odometry) return;
   spdlog::info(
@@ -144,7 +144,7 @@ void TellReverse(const TeachStep& step, Drive& drive) {
   }
 }
 
-// False: the drive is over. `told`: the base, last.
+// Returns false if the drive is over. `told` is the base's last command.
 Result<bool> Steer(RobotDevice& device, Hands* hands, motion::VelocityCommand& told) {
   if (hands == nullptr) return true;
   hands->Take();
@@ -157,14 +157,14 @@ Result<bool> Steer(RobotDevice& device, Hands* hands, motion::VelocityCommand& t
   return true;
 }
 
-// One more of the frames that are taught again, if there are any.
+// Teaches one more of the frames that are to be taught again, if there are any.
 Result<void> CatchUp(TeachSession& session, ScoutLink& link, Drive& drive) {
   auto step = session.CatchUp();
   if (!step || !step->finished) return {};
   return PassOn(std::move(*step->finished), link, drive);
 }
 
-// The control loop: frame, step, hand over. Ends with the drive, a signal or an error.
+// The control loop: frame, step, hand over. It ends with the drive, a signal or an error.
 Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOptions& options,
                        Hands* hands, ScoutLink& link, Drive& drive) {
   const Standstill standstill(device);
@@ -242,7 +242,7 @@ Summary Summarize(const ScoutLink::Outcome& outcome, const Drive& drive) {
   return summary;
 }
 
-// A teaching that goes on, with what was said of it this time.
+// Returns the description of a teaching that continues, with this run's additions.
 route::RouteInfo GoingOn(route::RouteInfo cut_off, const ScoutOptions& options) {
   std::set<std::string> tags(cut_off.tags.begin(), cut_off.tags.end());
   tags.insert(options.tags.begin(), options.tags.end());
@@ -252,7 +252,7 @@ route::RouteInfo GoingOn(route::RouteInfo cut_off, const ScoutOptions& options) 
   return cut_off;
 }
 
-// What becomes of an earlier teaching that was cut off; what goes on, if that is wanted.
+// Decides what becomes of an earlier teaching that was cut off, and returns it if it continues.
 Result<std::optional<route::RouteInfo>> SettleUnfinished(const ScoutOptions& options,
                                                          ScoutLink& link) {
   const auto cut_off = link.FindCutOff(options.route);
@@ -283,7 +283,7 @@ Result<std::optional<route::RouteInfo>> SettleUnfinished(const ScoutOptions& opt
   return std::nullopt;
 }
 
-// Starts the link with what is to be taught; the first observation of that.
+// Starts the link with the route to be taught, and returns the first observation.
 Result<Observation> Begin(RobotDevice& device, const ScoutOptions& options, ScoutLink& link,
                           const std::optional<route::RouteInfo>& cut_off) {
   auto first = device.Next();
@@ -305,7 +305,7 @@ Result<Observation> Begin(RobotDevice& device, const ScoutOptions& options, Scou
   return there;
 }
 
-// Up to the drive's end, whatever that is; the error: it did not begin.
+// Drives to the drive's end, whatever that is. The error is that it did not begin.
 Result<void> BeginAndDrive(RobotDevice& device, const ScoutOptions& options, Hands* hands,
                            ScoutLink& link, Drive& drive) {
   const auto cut_off = SettleUnfinished(options, link);
@@ -317,7 +317,7 @@ Result<void> BeginAndDrive(RobotDevice& device, const ScoutOptions& options, Han
   return {};
 }
 
-// A person drives it for as long as this is there.
+// Marks the robot as driven by a person for its own lifetime.
 class DrivenByHand {
  public:
   explicit DrivenByHand(RobotDevice& device) : device_(device) { device_.ByHand(true); }

@@ -14,18 +14,19 @@ namespace {
 
 using route::Standing;
 
-// Shorter than any that somebody meant to teach.
+// Nobody means to teach a shorter route.
 constexpr double kLeastRoute_m = 0.2;
 // Two to five thousand are usual.
 constexpr double kManyBytes_per_m = 10'000.0;
 constexpr double kToldTurn_rad = 0.3;
 
-// "route 'hall' revision 2 (a3f9c21@2)".
+// Returns "route 'hall' revision 2 (a3f9c21@2)".
 std::string Which(const route::RouteInfo& route) {
   return fmt::format("{} ({})", route::Describe(route), route::ShortIds().Of(route));
 }
 
-// Of a teaching that no robot follows by itself: as a server says it, if one did.
+// Tells how to activate a teaching that no robot follows by itself, by a server's report if there
+// is one.
 std::string HowToActivate(const route::RouteInfo& route,
                           const std::optional<exchange::StandingThere>& there) {
   const std::string id = route::ShortIds().Of(route);
@@ -56,7 +57,7 @@ void TellOddities(const route::RouteInfo& route) {
   }
 }
 
-// As a server that has all of it says it.
+// Tells the standing by a server that has the whole route.
 void TellStanding(const route::RouteInfo& route, const exchange::StandingThere& there) {
   switch (there.standing) {
     case Standing::kActive:
@@ -70,7 +71,7 @@ void TellStanding(const route::RouteInfo& route, const exchange::StandingThere& 
       spdlog::info("{} was retired by an operator: no robot follows it", Which(route));
       break;
     case Standing::kDeleted:
-      break;  // an error: Judge
+      break;  // Judge returns an error for it
   }
 }
 

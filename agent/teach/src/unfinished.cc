@@ -26,7 +26,7 @@ constexpr const char* kQuestion =
     "  d  discard it, and teach the route anew\n"
     "Go on, keep or discard? [g, K, d] ";
 
-// A line from standard input; nothing when there will be none.
+// Returns a line from standard input, or nothing if there will be none.
 std::optional<std::string> ReadAnswer(const std::function<bool()>& stop) {
   constexpr int kLookEvery_ms = 200;
   constexpr std::size_t kLongest = 100;
