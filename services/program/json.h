@@ -6,18 +6,18 @@
 
 namespace trailcast::program {
 
-// Keys stay in the order in which they were given. For sources: headers name it by
-// <nlohmann/json_fwd.hpp>, which costs their readers nothing to compile.
+// Keys keep the order in which they were given. Only sources include this; headers use
+// <nlohmann/json_fwd.hpp>, which compiles fast.
 using Json = nlohmann::ordered_json;
 
-// Without line breaks. What of its texts is no UTF-8 becomes U+FFFD: it may be anybody's.
+// Returns one line. Bytes that are no UTF-8 become U+FFFD, because texts may come from anybody.
 [[nodiscard]] std::string OneLine(const Json& json);
-// As programs print it: people read along.
+// Returns the form that programs print, for people to read.
 [[nodiscard]] std::string Indented(const Json& json);
 
-// To so many parts of one: coarse, so that noise is no news.
+// Rounds to so many parts of one, coarsely, so that noise is no news.
 [[nodiscard]] double Rounded(double value, double parts);
-// null: it is not known.
+// Returns null if it is not known.
 [[nodiscard]] Json RoundedOrNull(std::optional<double> value, double parts);
 template <typename Value>
 [[nodiscard]] Json OrNull(const std::optional<Value>& value) {

@@ -9,19 +9,19 @@
 namespace trailcast::program {
 
 // Keeps two running processes from using one name. A process that starts publishes its status
-// (kStarting) and listens for kListening; whoever was there before keeps the name, and of two that
-// start together the one with the smaller instance.
+// (kStarting) and listens for kListening. The process that was there before keeps the name; if two
+// start together, the one with the smaller instance does.
 class NameClaim {
  public:
   static constexpr std::chrono::milliseconds kListening{1000};
 
-  // `own` as published, with its instance.
+  // `own` is the published status with its instance.
   explicit NameClaim(const exchange::AgentStatus& own)
       : agent_(own.agent), instance_(own.instance) {}
 
-  // kConflict when `status` comes from another process that has the name and keeps it.
+  // kConflict means that `status` comes from another process that has the name and keeps it.
   [[nodiscard]] Result<void> See(const exchange::AgentStatus& status) const;
-  // The same as a server tells it, to who does not hear the other process.
+  // Does the same by a server's report, for processes that do not hear the other one.
   [[nodiscard]] Result<void> See(const exchange::ClaimedName& claimed) const;
 
  private:
@@ -31,7 +31,7 @@ class NameClaim {
   std::uint64_t instance_;
 };
 
-// Random, never 0.
+// Returns a random number, never 0.
 [[nodiscard]] std::uint64_t MakeInstance();
 
 }  // namespace trailcast::program

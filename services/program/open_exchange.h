@@ -8,18 +8,18 @@
 
 namespace trailcast::program {
 
-// The DDS exchange that the options describe, with the heartbeat they ask for. Who publishes a
-// status (an agent, a server) waits for a network that is not there yet; for others it is
-// kUnavailable. `network`, if there is one, is kept up to date by the exchange, in the thread that
-// takes from it. With --security the keys are looked through first: errors as LoadMemberKeys has
-// them, kInvalidArgument when they are of another name or for a role that may not what `use` names.
-// Who is kept out is told in the log.
+// Opens the DDS exchange that the options describe, with their heartbeat. A program that publishes
+// a status (an agent, a server) waits for a network that is not there yet; for others that is
+// kUnavailable. The exchange keeps `network`, if given, up to date, on the thread that takes from
+// it. With --security it checks the keys first: errors are those of LoadMemberKeys, and
+// kInvalidArgument if the keys have another name, or a role that may not do what `use` names.
+// Participants that are kept out are logged.
 [[nodiscard]] Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(
     const CommonOptions& options, const exchange::TopicUse& use,
     std::shared_ptr<exchange::NetworkState> network = nullptr);
 
-// Whether the role of the keys allows `use`; all is allowed without --security. Keys that are wrong
-// in other ways are told of by OpenExchange.
+// Says whether the role of the keys allows `use`; without --security everything is allowed.
+// OpenExchange reports keys that are wrong in other ways.
 [[nodiscard]] bool KeysAllow(const CommonOptions& options, const exchange::TopicUse& use);
 
 }  // namespace trailcast::program

@@ -6,8 +6,8 @@
 
 namespace trailcast::program {
 
-// Whether the folder is there and may be written to: asked before work that takes minutes. An empty
-// path is no file at all.
+// Checks that the folder is there and can be written to, before work that takes minutes. An empty
+// path means no file.
 [[nodiscard]] Result<void> CanBeWritten(const std::filesystem::path& file);
 
 }  // namespace trailcast::program

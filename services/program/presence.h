@@ -16,62 +16,64 @@
 
 namespace trailcast::program {
 
-// What is known of a robot itself: 0 to 100.
+// A robot's own values: 0 to 100.
 struct Vitals {
   std::optional<std::uint8_t> battery_percent{};
   std::optional<std::uint8_t> link_percent{};
 };
 
-// An agent as its peers see it: claims its name, publishes its status, notes whether a server is
-// heard, and answers who asks whom it hears. Owned by the thread that owns the exchange.
+// An agent as its peers see it: it claims its name, publishes its status, notes whether a server is
+// heard, and answers questions whom it hears. The thread that owns the exchange owns it.
 class Presence {
  public:
   using Clock = std::chrono::steady_clock;
   using Handler = std::function<void(const exchange::Message&)>;
-  // What all agents together may say: every one of them hears every status.
+  // The share of each agent in the statuses of all, because every agent hears every status.
   static constexpr std::chrono::milliseconds kForEachAgent{10};
-  // Strangers can make up names: more are not kept.
+  // Strangers can make up names, so no more are kept.
   static constexpr std::size_t kMostAgents = 4096;
-  // A battery below this is told in words, too.
+  // A battery below this is mentioned in words, too.
   static constexpr std::uint8_t kBatteryLow_percent = 20;
 
-  // `exchange` outlives this. `status` names agent and role, and the instance of a
-  // process that has one already; its mode is set here. The
-  // status is published every `interval` (less often in a swarm, so that each of its agents has
-  // kForEachAgent), and when the mode changes or how operators hold it.
+  // `exchange` must outlive this. `status` names agent and role, and the instance of a process that
+  // has one already; its mode is set here. The status is published every `interval` (less often in
+  // a swarm, so that each of its agents has kForEachAgent), and when its mode or the operators'
+  // hold changes.
   Presence(exchange::RouteExchange& exchange, exchange::AgentStatus status,
            std::chrono::milliseconds interval = std::chrono::milliseconds(200));
 
-  // Publishes kStarting and listens; everything heard goes to `handle` too. kConflict when another
-  // running process has the name. Ends early, without error, when `stop` says so.
+  // Publishes kStarting and listens; `handle` gets everything heard as well. kConflict means that
+  // another running process has the name. It ends early, without an error, if `stop` returns true.
   [[nodiscard]] Result<void> Claim(const Handler& handle, const std::function<bool()>& stop);
 
-  // Notes whether a server speaks, how many agents there are and who else has the name; answers who
-  // claims it. What servers tell of others counts as if it was heard.
+  // Notes whether a server is heard, how many agents there are and who else has the name, and
+  // answers claims of it. Servers' reports on others count as if these were heard.
   void Handle(const exchange::Message& message);
 
-  // Asked of the robot whenever its status is published, from the thread that does so.
+  // `vitals` is called whenever the status is published, on that thread.
   void FeelBy(std::function<Vitals()> vitals) { vitals_ = std::move(vitals); }
-  // The status to be published from now on; agent, role, instance and version stay.
+  // Sets the status to be published from now on; agent, role, instance and version stay.
   void Set(exchange::AgentStatus status);
   [[nodiscard]] const exchange::AgentStatus& status() const { return status_; }
-  // Publishes when the interval has passed, or the mode or the hold has changed.
+  // Publishes if the interval has passed, or if the mode or the hold has changed.
   void Tick(Clock::time_point now);
   // Publishes now.
   void Publish();
 
-  // A server that was heard and has not gone since; of several the same one as long as it is there.
+  // Returns a server that was heard and has not gone since; if there are several, the same one as
+  // long as it is there.
   [[nodiscard]] const std::optional<AgentId>& server() const { return server_; }
-  // All of these.
+  // Returns all of these.
   [[nodiscard]] std::set<AgentId> servers() const { return servers_.Names(); }
-  // That another running process has the name, which was not found out when it started; empty: none
-  // has. Published with the status, and told in the log.
+  // Returns that another running process has the name, if that was not found when this one started,
+  // or an empty text. It is published with the status, and logged.
   [[nodiscard]] std::string NameTrouble() const;
 
  private:
-  // kConflict when somebody else keeps the name.
+  // kConflict means that somebody else keeps the name.
   [[nodiscard]] Result<void> See(const exchange::Message& message) const;
-  // Who claims this one's name did not hear what it said before: tells whose the name is.
+  // Tells a process that claims this one's name whose it is, because it did not hear the earlier
+  // statuses.
   void AnswerClaim(const exchange::AgentStatus& status);
   void Hear(const exchange::AgentStatus& status);
   void Hear(const exchange::AgentGone& gone);
@@ -89,20 +91,20 @@ class Presence {
   exchange::ServersThere servers_;
   std::optional<AgentId> server_;  // one of those
   std::set<AgentId> others_;       // heard, and not gone since
-  // What each server tells of those who are not heard.
+  // Each server's report on agents that are not heard.
   struct Told {
     std::uint32_t agents = 0;
-    std::uint64_t namesake = 0;  // the instance of another process of this name; 0: none
+    std::uint64_t namesake = 0;  // the instance of another process of this name; 0 if there is none
   };
   std::map<AgentId, Told> told_;
   std::optional<exchange::ReachDesk> reach_;  // unless the process has one that answers already
   std::uint64_t namesake_ = 0;                // heard
-  std::string name_trouble_;                  // as it was told in the log last
+  std::string name_trouble_;                  // as it was last logged
 };
 
-// Topics of a role, and the statuses of all agents, overheard where the role does not read them,
-// and what servers tell of those who are not heard: a process must see whether its name is taken.
-// And those by which it is asked whom it hears.
+// Adds to a role's topics the statuses of all agents, overheard if the role does not read them, and
+// servers' reports on those that are not heard, because a process must notice that its name is
+// taken. It also adds the topics by which members are asked whom they hear.
 [[nodiscard]] exchange::TopicUse WithAgents(exchange::TopicUse use);
 
 }  // namespace trailcast::program

@@ -7,12 +7,12 @@
 
 namespace trailcast::program {
 
-// How good the link of a radio is, 0 to 100 %, as `text` in the form of /proc/net/wireless says it.
-// `interface`: which radio; empty: the only one. Nothing where there is none such, or it does not
-// say.
+// Returns the quality of a radio's link, 0 to 100 %, from `text` in the form of /proc/net/wireless.
+// An empty `interface` means the only radio. It is nothing if there is no such radio, or its
+// quality is not given.
 [[nodiscard]] std::optional<std::uint8_t> LinkPercent(std::string_view text,
                                                       std::string_view interface);
-// This machine's.
+// Does the same for this machine.
 [[nodiscard]] std::optional<std::uint8_t> LinkPercent(const std::string& interface);
 
 }  // namespace trailcast::program

@@ -11,8 +11,8 @@
 
 namespace trailcast::program {
 
-// An option that may be given several times; each text is read by `parse`, all of them are given to
-// `take`.
+// Adds an option that may be given several times. `parse` reads each text, and `take` gets all of
+// them.
 template <typename Value>
 CLI::Option* AddSeveral(CLI::App& app, const std::string& flag, const std::string& form,
                         Result<Value> (*parse)(const std::string&),

@@ -2,9 +2,9 @@
 
 namespace trailcast::program {
 
-// SIGINT, SIGTERM and SIGHUP (the terminal is gone) turned into a flag, so that a process ends by
-// its own code and a robot is stopped first. Signals ignored from the start stay so (nohup). A
-// third signal kills, in case that code hangs. One per process, in main.
+// Turns SIGINT, SIGTERM and SIGHUP (the terminal is gone) into a flag, so that a process ends by
+// its own code and stops a robot first. Signals that are ignored from the start stay so (nohup). A
+// third signal kills, in case that code hangs. There is one per process, in main.
 class StopSignal {
  public:
   StopSignal();
@@ -12,7 +12,7 @@ class StopSignal {
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
 
-  // How often we were asked to stop. Any thread.
+  // Returns how often the process was asked to stop. Any thread may call it.
   [[nodiscard]] static int count();
   [[nodiscard]] static bool requested() { return count() > 0; }
 };

@@ -6,8 +6,8 @@
 
 namespace trailcast::program {
 
-// TOML as CLI11 reads it, and with comments wherever TOML allows them: CLI11 2.1 takes one behind a
-// section's header for part of its name, and a '#' in a quoted value for a comment.
+// Reads TOML as CLI11 does, with comments wherever TOML allows them. CLI11 2.1 takes a comment
+// behind a section's header for part of its name, and a '#' in a quoted value for a comment.
 class Toml : public CLI::ConfigTOML {
  public:
   [[nodiscard]] std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;

@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kItself = "The program itself";
 
-// Keys a configuration file may hold for `app` itself.
+// Returns the keys that a configuration file may have for `app` itself.
 std::string Keys(const CLI::App& app) {
   std::vector<std::string> keys;
   for (const CLI::Option* option : app.get_options()) {
@@ -39,7 +39,7 @@ std::string AcceptedKeys(const CLI::App& app) {
   return text;
 }
 
-// CLI11 looks for what is missing before it looks at what is too much; a misspelt option is both.
+// CLI11 looks for missing options before superfluous ones, but a misspelt option is both.
 std::string Explain(const CLI::App& app, const CLI::ParseError& error) {
   std::string message = error.what();
   const std::vector<std::string> unknown = app.remaining(true);
@@ -96,7 +96,7 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
       ->envname("TRAILCAST_SECURITY");
   app.final_callback([&options, name] {
     if (options.security.empty() || name->count() > 0) return;
-    // Keys that are wrong are told of by who needs them, when it joins.
+    // Keys that are wrong are reported when the program joins with them.
     if (const auto in_keys = security::NameInKeys(options.security)) options.name = *in_keys;
   });
   app.option_defaults()->group(kItself);

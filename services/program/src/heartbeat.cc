@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using exchange::AgentMode;
 using exchange::AgentStatus;
 
-// The file's first line.
+// These are the file's first line.
 constexpr const char* kWell = "well";
 constexpr const char* kFault = "fault";
 
@@ -35,7 +35,7 @@ class ExchangeWithHeartbeat final : public exchange::RouteExchange {
 
   Result<void> Publish(const exchange::Message& message) override {
     if (const auto* status = std::get_if<AgentStatus>(&message)) {
-      // What a process that cannot go on says last shall be known at once.
+      // The last status of a process that cannot go on must be known at once.
       if (status->mode != status_.mode) next_ = {};
       status_ = *status;
       Beat();
@@ -65,13 +65,13 @@ class ExchangeWithHeartbeat final : public exchange::RouteExchange {
     }
     complained_ = !written;
   }
-  // Under another name first: whoever reads it finds all of it.
+  // It is written under another name first, so that readers find all of it.
   [[nodiscard]] bool Write() const {
     fs::path other = file_;
     other += ".new";
     std::ofstream out(other, std::ios::trunc);
     const std::string trouble = network_ ? network_->trouble : "";
-    // A robot goes on by itself; a server serves nobody then.
+    // A robot without a network goes on by itself, but a server serves nobody.
     const bool faulty = status_.mode == AgentMode::kFault ||
                         (status_.role == exchange::AgentRole::kServer && !trouble.empty());
     out << (faulty ? kFault : kWell) << '\n'

@@ -10,7 +10,7 @@
 namespace trailcast::program {
 namespace {
 
-// A line that wraps would break the redrawing, so lines are cut to the terminal's width.
+// Lines are cut to the terminal's width, because a line that wraps would break the redrawing.
 std::size_t TerminalWidth(int descriptor) {
   winsize size{};
   if (ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;

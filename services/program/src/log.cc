@@ -10,7 +10,7 @@ namespace {
 
 std::string_view View(spdlog::string_view_t text) { return {text.data(), text.size()}; }
 
-// One JSON object a line, for what gathers logs.
+// Writes one JSON object a line, for programs that gather logs.
 class JsonLines final : public spdlog::formatter {
  public:
   void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {

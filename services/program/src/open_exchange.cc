@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::chrono::hours kSoon{7 * 24};
 
-// Topics that older keys do not name, of each kind the one by which that is seen.
+// A topic that older keys do not name, one of each kind.
 struct NewerTopic {
   exchange::Topic topic;
   const char* what;
@@ -102,7 +102,7 @@ Result<std::unique_ptr<exchange::RouteExchange>> OpenExchange(
   dds.server_addresses = options.server_addresses;
   dds.network_state = network ? std::move(network) : std::make_shared<exchange::NetworkState>();
   dds.waits_for_network = IsAgent(use);
-  // A command that is over in a moment has no log to watch.
+  // A command that ends in a moment has no log to watch.
   if (IsAgent(use)) {
     dds.tell_of_network = [](const std::string& line) { spdlog::warn("{}", line); };
     dds.tell_of_discovery = [](const std::string& line) { spdlog::info("{}", line); };

@@ -22,7 +22,7 @@ exchange::AgentStatus Starting(exchange::AgentStatus status) {
   return status;
 }
 
-// Room for a low battery in a status' line.
+// Room for a low battery in a status's line.
 constexpr std::size_t kBatteryLineBytes = 32;
 
 }  // namespace
@@ -69,7 +69,7 @@ void Presence::Handle(const exchange::Message& message) {
   }
   if (!reach_) return;
   reach_->Handle(message, Clock::now());
-  // What cannot be handed over is asked for again.
+  // An answer that cannot be sent is asked for again.
   (void)exchange::PublishAll(exchange_, reach_->TakeOutgoing());
 }
 
@@ -90,7 +90,7 @@ void Presence::Hear(const exchange::AgentStatus& status) {
   }
 }
 
-// The one that it was, as long as that is there.
+// Keeps the present server as long as it is there.
 void Presence::ChooseServer() {
   if (server_ && servers_.Contains(*server_)) return;
   server_.reset();
@@ -104,7 +104,7 @@ void Presence::Hear(const exchange::Fleet& fleet) {
   for (const exchange::ClaimedName& claimed : fleet.claimed) {
     if (claimed.agent != status_.agent) continue;
     const bool own = claimed.claims == status_.instance;
-    // Whose name it is speaks up.
+    // The owner of the name answers.
     if (claimed.keeps == 0 && !own) Publish();
     if (claimed.keeps != 0) told.namesake = own ? claimed.keeps : claimed.claims;
   }
@@ -139,7 +139,7 @@ void Presence::Set(exchange::AgentStatus status) {
   status.role = status_.role;
   status.instance = status_.instance;
   status.software = status_.software;
-  // A low battery is told after it.
+  // A low battery is mentioned after the text.
   status.detail = PlainText(status.detail, exchange::kMaxLineBytes - kBatteryLineBytes);
   status_ = std::move(status);
 }
@@ -159,7 +159,7 @@ void Presence::Publish() {
                                 status.detail.empty() ? "" : "; ", *vitals.battery_percent);
   }
   if (std::string trouble = NameTrouble(); !trouble.empty()) status.detail = std::move(trouble);
-  // A status that cannot be handed over is followed by the next one.
+  // If a status cannot be sent, the next one follows.
   if (exchange_.Publish(status)) published_ = {status_.mode, status_.hold};
   std::size_t agents = others_.size();
   for (const auto& [server, told] : told_) agents = std::max<std::size_t>(agents, told.agents);

@@ -11,8 +11,8 @@
 namespace trailcast::program {
 namespace {
 
-// Linux (net/wireless/wext-compat.c): where the level is in dBm, from -110 to -40, the quality is
-// that above -110; else it is a percentage.
+// In Linux (net/wireless/wext-compat.c), if the level is in dBm, from -110 to -40, the quality is
+// its distance from -110; otherwise it is a percentage.
 constexpr double kBestOfDbm = 70.0;
 constexpr double kBestOfPercent = 100.0;
 constexpr std::size_t kMostBytes = 4096;
@@ -29,7 +29,7 @@ std::vector<std::string_view> Words(std::string_view line) {
   }
 }
 
-// "60." is a value that was renewed lately, "60" one that was not.
+// "60." is a value that was renewed lately; "60" is one that was not.
 std::optional<double> Value(std::string_view word) {
   if (word.ends_with('.')) word.remove_suffix(1);
   const auto value = ParseNumber<double>(word);
@@ -37,7 +37,7 @@ std::optional<double> Value(std::string_view word) {
   return *value;
 }
 
-// Of what stands behind a name: status, quality of the link, level, noise, ..
+// A name is followed by status, quality of the link, level, noise, ..
 std::optional<std::uint8_t> PercentOf(std::string_view line) {
   const auto words = Words(line);
   if (words.size() < 3) return std::nullopt;
@@ -58,7 +58,7 @@ std::optional<std::uint8_t> LinkPercent(std::string_view text, std::string_view 
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     const std::size_t colon = line.find(':');
-    if (colon == std::string_view::npos) continue;  // the heads of the columns
+    if (colon == std::string_view::npos) continue;  // the columns' headings
     const auto name = Words(line.substr(0, colon));
     if (name.size() != 1) continue;
     ++radios;

@@ -17,7 +17,8 @@ struct Group {
   Options options;
 };
 
-// Sorts the options of `app` by group. What a command shares with others comes without help flags.
+// Sorts the options of `app` by group. Options that a command shares with others come without help
+// flags.
 std::vector<Group> GroupsOf(const CLI::App& app, bool shared) {
   std::vector<Group> groups;
   for (const std::string& name : app.get_groups()) {

@@ -5,8 +5,8 @@
 
 namespace trailcast::program {
 
-// `--help` explains what a first user needs: the options of kFirstGroup, a command's own and those
-// that it shares with others. Of all other groups it lists the names alone; `--help-all` explains
+// Makes `--help` explain what a first user needs: the options of kFirstGroup, a command's own and
+// those that it shares with others. It only lists the names of other groups; `--help-all` explains
 // them, too.
 class ShortHelp : public CLI::Formatter {
  public:

@@ -22,8 +22,8 @@ void Handle(void (*handler)(int)) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
-    // Whoever started us with nohup wants the hang-up ignored. A script's shell ignores SIGINT for
-    // what it starts in the background, but a teaching must be ended by it all the same.
+    // A program started with nohup must ignore the hang-up. A script's shell ignores SIGINT for
+    // programs in the background, but a teaching must be ended by it nevertheless.
     if (signal != SIGHUP || before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
 }

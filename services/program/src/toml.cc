@@ -9,7 +9,7 @@
 namespace trailcast::program {
 namespace {
 
-// Up to the first '#' that stands in no quotes, and without the blanks before it.
+// Returns the line up to the first '#' outside of quotes, without the blanks before it.
 std::string WithoutComment(const std::string& line) {
   char quote = 0;
   std::size_t end = 0;
@@ -39,7 +39,7 @@ std::vector<CLI::ConfigItem> Toml::from_config(std::istream& input) const {
     without_comments << WithoutComment(line) << '\n';
   }
   CLI::ConfigTOML reader;
-  reader.comment('\0');  // what is left are no comments
+  reader.comment('\0');  // comments are already removed
   return reader.from_config(without_comments);
 }
 
