@@ -9,11 +9,11 @@
 
 namespace trailcast::store {
 
-// Statements that SQLite compiles once, for what is asked for every segment or route: compiling
-// takes longer than answering. All are kept: not for SQL that is put together from a query.
+// Keeps compiled SQLite statements that are needed for every segment or route, because compiling
+// takes longer than answering. All are kept, so it is not for SQL that is built from a query.
 class CompiledStatements {
  public:
-  // A statement while it is in use; rows that it has not given yet are let go with it.
+  // A statement in use. Its destructor lets go of rows that were not read.
   class Lease {
    public:
     explicit Lease(SQLite::Statement& statement) : statement_(statement) {}
@@ -28,10 +28,10 @@ class CompiledStatements {
     SQLite::Statement& statement_;
   };
 
-  // The database outlives this.
+  // The database must outlive this.
   explicit CompiledStatements(SQLite::Database& db) : db_(db) {}
 
-  // Nobody else has the same SQL's statement in use.
+  // Only one lease of the same SQL may exist at a time.
   [[nodiscard]] Lease Take(std::string_view sql);
 
  private:

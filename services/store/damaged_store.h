@@ -11,14 +11,15 @@
 namespace trailcast::store {
 
 struct DamagedStore {
-  // What is whole, to be read; every write is kUnavailable and says why.
+  // The whole parts, for reading; every write is kUnavailable and says why.
   std::unique_ptr<RouteStore> whole;
-  std::vector<std::string> lost;  // as Salvaged::lost
+  std::vector<std::string> lost;  // see Salvaged::lost
 };
 
-// Opens what OpenSqliteStore calls kCorrupt. The file stays as it is: what is whole is copied into
-// another beside it, which goes with the store, so there must be room for that (kUnavailable).
-// kCorrupt if nothing in it can be read as a store. Takes as long as reading the file does.
+// Opens a store for which OpenSqliteStore returns kCorrupt. The file stays as it is: its whole
+// parts are copied into another file beside it, which is deleted with the store, so there must be
+// room for it (kUnavailable). kCorrupt means that nothing in the file can be read as a store. It
+// takes as long as reading the file.
 [[nodiscard]] Result<DamagedStore> OpenDamagedStore(const std::filesystem::path& file);
 
 }  // namespace trailcast::store

@@ -7,17 +7,17 @@
 
 namespace trailcast::store {
 
-// Whether `location` is meant to be one: postgresql://.. or postgres://..
+// Says whether `location` is a URL: postgresql://.. or postgres://..
 [[nodiscard]] bool IsPostgresUrl(std::string_view location);
 
-// Where a PostgreSQL database is, in the form that its library takes.
+// The place of a PostgreSQL database in the form that its library takes.
 struct PostgresUrl {
-  std::string connection;  // with bounds on waiting that the given one lacked; may have a password
-  std::string shown;       // for messages: host, port and database, with the user; never a password
+  std::string connection;  // with bounds on waiting that the URL lacked; may have a password
+  std::string shown;       // for messages: host, port, database and user, never a password
 };
 
-// kInvalidArgument when it could be read in two ways, one of which takes a part of a password for a
-// host's name and would print it. All else is the library's to judge.
+// kInvalidArgument means that the URL can be read in two ways, one of which takes a part of a
+// password for a host's name and would print it. The library judges everything else.
 [[nodiscard]] Result<PostgresUrl> ParsePostgresUrl(const std::string& location);
 
 }  // namespace trailcast::store

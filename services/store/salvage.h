@@ -13,16 +13,16 @@ namespace trailcast::store {
 struct Salvaged {
   std::size_t routes = 0;
   std::size_t segments = 0;
-  // A line each: what complete routes lack now, what else is known to have been there, and how many
-  // rows and pages of the file cannot be read.
+  // Lines on what complete routes lack now, what else is known to be lost, and how many rows and
+  // pages of the file cannot be read.
   std::vector<std::string> lost;
 };
 
-// Copies what is whole of a store, however damaged or cut short, into a new one, `to`, which must
-// not exist. Every page of the file and of its log is looked at, those too that no table has any
-// more: what was deleted stays deleted by its tombstone. Reads `from` only; nothing else may have
-// it open (kConflict). kCorrupt if nothing in it can be read as a store; kUnavailable when there is
-// no room for the new one, which is then not there.
+// Copies the whole parts of a store, however damaged or cut short it is, into a new one, `to`,
+// which must not exist. It reads every page of the file and of its log, even those that no table
+// has any more; deleted routes stay deleted by their tombstones. `from` is only read, and nothing
+// else may have it open (kConflict). kCorrupt means that nothing in it can be read as a store;
+// kUnavailable that there is no room for the new one, which is then removed.
 [[nodiscard]] Result<Salvaged> Salvage(const std::filesystem::path& from,
                                        const std::filesystem::path& to,
                                        const SqliteOptions& options = {});
@@ -32,8 +32,8 @@ struct Repaired {
   std::filesystem::path kept;  // the damaged file; its log, if it had one, is beside it
 };
 
-// Makes what is whole of a store the store. Killed at any instant, it leaves the damaged one or the
-// new one under the store's name, each with its own log. Errors as of Salvage.
+// Replaces a store by its whole parts. Killed at any instant, it leaves the damaged store or the
+// new one under the store's name, each with its own log. Errors are Salvage's.
 [[nodiscard]] Result<Repaired> Repair(const std::filesystem::path& file);
 
 }  // namespace trailcast::store

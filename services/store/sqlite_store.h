@@ -14,7 +14,7 @@
 
 namespace trailcast::store {
 
-// RouteStore in one SQLite file; made by OpenSqliteStore.
+// RouteStore in one SQLite file, made by OpenSqliteStore.
 class SqliteRouteStore final : public RouteStore {
  public:
   SqliteRouteStore(StoreFile file, std::unique_ptr<SQLite::Database> db,
@@ -45,8 +45,8 @@ class SqliteRouteStore final : public RouteStore {
   Result<std::vector<std::string>> Verify() override;
 
  private:
-  // Runs `work`, which may throw SQLite's exceptions, and says what was being done if it does:
-  // `doing` is a text, or makes one, for what is done with each segment.
+  // Runs `work`, which may throw SQLite's exceptions, and wraps them with `doing`, which is a text
+  // or makes one, because some texts depend on the segment.
   template <typename Doing, typename Work>
   auto Guarded(const Doing& doing, const Work& work) -> decltype(work()) {
     try {
@@ -60,40 +60,41 @@ class SqliteRouteStore final : public RouteStore {
     }
   }
 
-  // One transaction: if `store` fails for one of them, none is stored.
+  // Stores all in one transaction: if `store` fails for one of them, none is stored.
   template <typename Item, typename Store>
   Result<void> StoreAll(const std::string& doing, std::span<const Item> items, const Store& store);
   [[nodiscard]] std::string RareTag(const route::RouteQuery& query);
-  // Stores what is new of a route within the caller's transaction; the others write it: what it is,
-  // and by what it is found; or its tombstone.
+  // Stores the news of a route within the caller's transaction. The others write its description,
+  // the columns by which it is found, or its tombstone.
   Result<void> PutNews(const route::RouteInfo& info);
   void Put(const route::RouteInfo& info);
   void Bury(const route::RouteInfo& info);
-  // Within the caller's transaction; bytes that others rely on go to them.
+  // Runs within the caller's transaction. Bytes on which others rely go to them.
   void PartWith(const route::RouteKey& key);
-  // Puts the row into one of the two tables; returns its id.
+  // Puts the row into one of the two tables and returns its id.
   std::int64_t PutRow(const std::string& table, const route::RouteInfo& info);
   void ForgetPlaceAndTags(std::int64_t id);
   [[nodiscard]] Result<void> RefuseBuried(const route::RouteKey& key);
-  // One transaction: pieces, and what `then` does with each.
+  // Appends in one transaction, and does `then` with each piece.
   Result<void> AppendAll(std::span<const route::SegmentPiece> pieces,
                          const std::function<void(const route::SegmentPiece&)>& then);
   void NoteReceipt(const route::RouteKey& key, SegmentIndex index);
   // Stores a piece within the caller's transaction.
   Result<void> Append(const route::SegmentPiece& piece);
-  // Whether that changed something.
+  // Says whether that changed something.
   bool Execute(const std::string& sql, const route::SegmentPiece& piece);
   Result<std::vector<SegmentIndex>> SelectIndices(const route::RouteKey& key, bool unreceipted);
-  // The rows of one of the two tables that fulfil `where`, whose parameters `bind` fills in.
+  // Returns the rows of one of the two tables that fulfil `where`, whose parameters `bind` fills
+  // in.
   Result<std::vector<route::RouteInfo>> SelectRoutes(
       const std::string& table, const std::string& where,
       const std::function<void(SQLite::Statement&)>& bind);
 
-  // Parts of Verify (sqlite_verify.cc); each adds a line for whatever is damaged.
+  // These are parts of Verify (sqlite_verify.cc); each adds a line for all damage that it finds.
   Result<void> VerifyPages(std::vector<std::string>& damage);
   Result<void> VerifyRoutes(std::vector<std::string>& damage);
 
-  StoreFile file_;  // outlives db_: see ~StoreFile
+  StoreFile file_;  // must outlive db_: see ~StoreFile
   std::unique_ptr<SQLite::Database> db_;
   SqliteOptions::Durability durability_;
   CompiledStatements compiled_{*db_};

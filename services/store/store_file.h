@@ -8,22 +8,23 @@
 
 namespace trailcast::store {
 
-// In SQLite's header, so that `file` and we can tell a route store from any other database: "TRCT".
+// This is in SQLite's header, so that `file` and we can tell a route store from any other database:
+// "TRCT".
 inline constexpr std::uint32_t kApplicationId = 0x54524354;
-// Version of the tables, in SQLite's user_version: stores of no other are opened.
+// The version of the tables, in SQLite's user_version; stores of another version are not opened.
 inline constexpr std::uint32_t kSchemaVersion = 6;
 
-// The file of a store, locked for this process and looked at before SQLite touches it (which would
-// create files beside it, or roll back a stranger's journal). The lock is the kernel's: it goes
-// when the process does, however that dies.
+// The file of a store, locked for this process and checked before SQLite touches it (which would
+// create files beside it, or roll back a stranger's journal). The lock is the kernel's, so it ends
+// with the process, however that dies.
 class StoreFile {
  public:
   enum class Condition : std::uint8_t {
-    kWhole,    // one that is cut short, or of another version, is refused
-    kDamaged,  // for whoever saves what is left of it
+    kWhole,    // a store that is cut short, or of another version, is refused
+    kDamaged,  // for saving what is left of it
   };
-  // Creates the file if there is none. Errors as for OpenSqliteStore; a file that is refused is
-  // left as it was. A repair that was cut off is finished first.
+  // Creates the file if there is none. Errors are those of OpenSqliteStore; a refused file is left
+  // as it was. An interrupted repair is finished first.
   [[nodiscard]] static Result<StoreFile> Acquire(const std::filesystem::path& path,
                                                  Condition condition = Condition::kWhole);
 

@@ -18,7 +18,7 @@ using route::RouteInfo;
 using route::RouteOrder;
 using route::RouteQuery;
 
-// After every character that a name or a camera's begins with.
+// This comes after every character with which a name or a camera's begins.
 constexpr const char* kAfterAnyText = "\xF4\x8F\xBF\xBF";
 constexpr double kEarthRadius_m = 6371008.8;
 
@@ -51,7 +51,7 @@ std::vector<std::string_view> Split(std::string_view text, char separator) {
   }
 }
 
-// A cursor's value in the type of the column that it is compared to.
+// Returns a cursor's value in the type of the column with which it is compared.
 std::optional<SqlValue> ValueIn(RouteOrder order, std::string_view text) {
   if (order == RouteOrder::kName) return std::string(text);
   if (order == RouteOrder::kNewest || order == RouteOrder::kOldest) {
@@ -62,9 +62,10 @@ std::optional<SqlValue> ValueIn(RouteOrder order, std::string_view text) {
   return std::nullopt;
 }
 
-// Found by box (SQLite's tree of places knows nothing else); the circle inside is cut out by
-// distance. On the globe a degree of longitude shortens towards the poles: right for surroundings
-// that are small beside the Earth and do not reach across the 180th meridian.
+// Places are found by a box, which is all that SQLite's tree of places knows, and a distance then
+// cuts out the circle in it. On the globe a degree of longitude shortens towards the poles. This is
+// right for surroundings that are small compared with the Earth and do not cross the 180th
+// meridian.
 void BeginsNear(const route::Surroundings& near, SqlDialect dialect, SqlCondition& condition) {
   const bool globe = near.middle.frame == route::Place::Frame::kWgs84;
   constexpr double kDegree_m = kEarthRadius_m * std::numbers::pi / 180.0;

@@ -12,45 +12,47 @@
 
 namespace trailcast::store {
 
-// Behind lower-case hexadecimal digits: past all that begins with them.
+// Added to lower-case hexadecimal digits, this comes after everything that begins with them.
 inline constexpr const char* kAfterHexDigits = "g";
 
-// What rows are made of, whatever database holds them.
+// The values of rows, whatever database holds them.
 
-using SqlValue = std::variant<std::monostate, std::string, std::int64_t, double>;  // first: NULL
+// the first is NULL
+using SqlValue = std::variant<std::monostate, std::string, std::int64_t, double>;
 
-// Columns of tables `route` and `tombstone`: by what rows are found and sorted; then what is known
-// of the route, in the route format, which all others are made from; then its seal.
+// These are the columns of tables `route` and `tombstone`: those by which rows are found and
+// sorted; then the route's description in the route format, from which all others are made; then
+// its seal.
 inline constexpr const char* kRouteColumns =
     "route, teaching, revision, name, scout, camera, taught_unix_ms, state, segment_count, "
     "length_m, standing, place_frame, place_east, place_north, info, seal";
 inline constexpr int kFoundByCount = 14;
 inline constexpr int kRouteColumnCount = kFoundByCount + 2;
 
-// "?,?,?": parameters for so many columns.
+// Returns "?,?,?": parameters for so many columns.
 [[nodiscard]] std::string Marks(int count);
 
-// The first kFoundByCount of them.
+// Returns the first kFoundByCount of them.
 [[nodiscard]] std::vector<SqlValue> FoundBy(const route::RouteInfo& info);
-// What a row of kRouteColumns says, if its bytes fit their seal and `is` tells of each column that
-// it has the value which they give it: a database may not notice a changed byte, and a damaged
-// index can lead to the wrong row.
+// Returns the description of a row of kRouteColumns if its bytes match their seal, and `is`
+// confirms that each column has the value that they give it. A database may not notice a changed
+// byte, and a damaged index can lead to the wrong row.
 [[nodiscard]] Result<route::RouteInfo> OpenInfo(
     const route::Bytes& info, const route::Bytes& seal,
     const std::function<bool(int column, const SqlValue& value)>& is);
 
-// kInvalidArgument, naming the field, for an info that no route can have.
+// kInvalidArgument names the field that no route can have.
 [[nodiscard]] Result<void> CheckRoute(const route::RouteInfo& info);
-// kInvalidArgument or kCorrupt for a piece that no segment can be.
+// kInvalidArgument or kCorrupt means that no segment can have the piece.
 [[nodiscard]] Result<void> CheckSegment(const route::SegmentPiece& piece);
 
-// Of a segment's row, its bytes left out. Part of the stores' format.
+// Returns the seal of a segment's row without its bytes. It is part of the stores' format.
 [[nodiscard]] route::Digest Seal(const route::SegmentPiece& piece);
 
 using route::Describe;
-// "segment 3 of teaching 1f of route .."
+// Returns "segment 3 of teaching 1f of route ..".
 [[nodiscard]] std::string Describe(const route::RouteKey& key, SegmentIndex index);
-// kCorrupt: the row fails its seal.
+// Returns kCorrupt for a row that does not match its seal.
 [[nodiscard]] tl::unexpected<Error> DamagedRoute(const route::RouteKey& key,
                                                  const std::string& name);
 [[nodiscard]] tl::unexpected<Error> DamagedSegment(const route::RouteKey& key, SegmentIndex index);

@@ -8,7 +8,7 @@
 namespace trailcast::store {
 namespace {
 
-// A digest, or kCorrupt when the column holds something else.
+// Returns a digest, or kCorrupt if the column has something else.
 Result<route::Digest> ReadDigest(const SQLite::Column& column) {
   route::Digest digest{};
   const auto* bytes = static_cast<const std::uint8_t*>(column.getBlob());

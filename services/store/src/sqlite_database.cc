@@ -8,14 +8,16 @@
 namespace trailcast::store {
 namespace {
 
-// Bounds the wait for somebody's sqlite3 shell; our own processes exclude each other beforehand.
+// This bounds the wait for somebody's sqlite3 shell; our own processes exclude each other
+// beforehand.
 constexpr int kBusyTimeoutMs = 2000;
 constexpr int kPageBytes = 4096;
-// Set before the first use of the log, which then needs no file of shared memory (a full disk under
-// one would kill the process).
+// It is set before the first use of the log, which then needs no file of shared memory. A full disk
+// under such a file would kill the process.
 constexpr const char* kExclusive = "PRAGMA locking_mode = EXCLUSIVE";
 
-// All in one transaction with the marks in the header: an interrupted making leaves an empty file.
+// Makes everything in one transaction with the marks in the header, so that an interruption leaves
+// an empty file.
 void MakeStore(SQLite::Database& db) {
   SQLite::Transaction transaction(db, SQLite::TransactionBehavior::EXCLUSIVE);
   db.exec(fmt::format("PRAGMA application_id = {}", kApplicationId));
@@ -28,7 +30,7 @@ void Configure(SQLite::Database& db, const SqliteOptions& options) {
   if (db.execAndGet("PRAGMA journal_mode = WAL").getString() != "wal") {
     throw SQLite::Exception("the file system does not support a write-ahead log", SQLITE_CANTOPEN);
   }
-  // FULL: on the disk when a commit returns. NORMAL: soon after, in the order of the commits.
+  // FULL means on the disk when a commit returns; NORMAL soon after, in the order of the commits.
   db.exec(options.durability == SqliteOptions::Durability::kAtOnce ? "PRAGMA synchronous = FULL"
                                                                    : "PRAGMA synchronous = NORMAL");
   db.exec("PRAGMA journal_size_limit = 4194304");
@@ -50,7 +52,8 @@ std::string DescribeTables(SQLite::Database& db) {
   return description;
 }
 
-// Cheap: reads the first pages. A byte changed in a table's definition changes what it means.
+// This is cheap, because it reads only the first pages. A changed byte in a table's definition
+// changes its meaning.
 void CheckTables(SQLite::Database& db) {
   SQLite::Database fresh(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   CreateTables(fresh);

@@ -1,4 +1,4 @@
-// SqliteRouteStore's catalog: by what routes are found, and finding them.
+// This part of SqliteRouteStore finds routes.
 #include <algorithm>
 
 #include "services/base/unix_time.h"
@@ -13,7 +13,7 @@ using route::RouteInfo;
 using route::RoutePage;
 using route::RouteQuery;
 
-// Bytes that other revisions' segments rely on go to the first of those.
+// Bytes on which other revisions' segments rely go to the first of those.
 constexpr const char* kBequeath = R"(
 WITH leaving AS (
   SELECT digest, bytes FROM segment WHERE route = ?1 AND teaching = ?2 AND bytes IS NOT NULL)
@@ -24,7 +24,7 @@ WHERE substr(digest, 1, 4) IN (SELECT substr(digest, 1, 4) FROM leaving)
                AND digest = heir.digest AND NOT (route = ?1 AND teaching = ?2)) AND bytes IS NULL
 )";
 
-// From one key to the next, whatever lies between.
+// It jumps from one key to the next.
 constexpr const char* kNextHeld = R"(
 SELECT route, teaching,
   (SELECT COUNT(*) FROM segment WHERE route = next.route AND teaching = next.teaching),
@@ -127,8 +127,8 @@ void SqliteRouteStore::Put(const RouteInfo& info) {
   add->exec();
 }
 
-// Of a tag that many routes have, the first page is found soonest in the order asked for; of one
-// that few have, by sorting those few.
+// If many routes have a tag, the first page is found fastest in the requested order; if few have
+// it, by sorting those few.
 std::string SqliteRouteStore::RareTag(const RouteQuery& query) {
   constexpr int kFew = 5000;
   for (const std::string& tag : query.tags) {
@@ -151,7 +151,7 @@ Result<RoutePage> SqliteRouteStore::QueryRoutes(const RouteQuery& query) {
     SQLite::Statement select(*db_, fmt::format("SELECT {}{}{} LIMIT ?", kRouteColumns,
                                                match.FromWhere(), OrderBy(query.order)));
     const int limit = BindValues(select, match.values());
-    BindSize(select, limit, wanted + 1);  // one more, to know whether there is another page
+    BindSize(select, limit, wanted + 1);  // one more shows whether there is another page
     RoutePage page;
     while (select.executeStep()) {
       if (page.routes.size() == wanted) {
@@ -164,7 +164,7 @@ Result<RoutePage> SqliteRouteStore::QueryRoutes(const RouteQuery& query) {
     }
     page.total = page.routes.size();
     if (page.next.empty() && query.cursor.empty()) return page;
-    // However many have the tag: nothing is sorted here.
+    // Counting sorts nothing, however many routes have the tag.
     const SqlCondition all = MatchOf(query, query.tags.empty() ? "" : query.tags.front());
     SQLite::Statement count(*db_, "SELECT COUNT(*)" + all.CountedFromWhere());
     BindValues(count, all.values());

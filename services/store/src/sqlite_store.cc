@@ -16,7 +16,8 @@ using route::RouteInfo;
 using route::RouteKey;
 using route::SegmentPiece;
 
-// What is committed while this is there is on the disk, and with it all that was committed before.
+// Anything that is committed during its lifetime is on the disk, with everything that was committed
+// before.
 class AtOnce {
  public:
   AtOnce(SQLite::Database& db, SqliteOptions::Durability usual) : db_(db), usual_(usual) {
@@ -116,7 +117,7 @@ Result<void> SqliteRouteStore::RefuseBuried(const RouteKey& key) {
               file_.path().string(), Describe(key));
 }
 
-// Nearly always it is new: what is held is read only when the database says that something is.
+// A piece is nearly always new, so held ones are read only if the database reports a conflict.
 Result<void> SqliteRouteStore::Append(const SegmentPiece& piece) {
   static const std::string insert =
       "INSERT INTO segment (route, teaching, number, digest, seal, bytes) VALUES (?,?,?,?,?,?) "
@@ -130,7 +131,7 @@ Result<void> SqliteRouteStore::Append(const SegmentPiece& piece) {
   if (Execute(insert_new, *content ? relying : piece)) return {};
   const Result<SegmentPiece> held = ReadSegment(piece.key, piece.index);
   if (!held && held.error().code == ErrorCode::kCorrupt) {
-    // With its bytes: those that were found may have been its own.
+    // The bytes are written too, because the ones that were found may have been its own.
     Execute(replace, piece);
     return {};
   }

@@ -5,8 +5,9 @@
 namespace trailcast::store {
 namespace {
 
-// What is known of a revision: `info`, in the route format, and columns made from it
-// (row_values.h). `seal` is the digest of those bytes: SQLite itself does not notice a changed one.
+// The description of a revision: `info`, in the route format, and columns made from it
+// (row_values.h). `seal` is the digest of those bytes, because SQLite itself does not notice a
+// changed one.
 constexpr const char* kRouteRow = R"(
   route TEXT NOT NULL,
   teaching INTEGER NOT NULL,
@@ -35,11 +36,12 @@ CREATE INDEX route_by_length ON route (length_m, route, teaching);
 CREATE INDEX route_by_scout ON route (scout);
 )";
 
-// Of segments that are alike, whichever route's they are, one has the bytes; in the others they are
-// NULL. A table of bytes apart would be simpler to read, and a damaged page of names would cost
-// thirty segments instead of one. Segments may arrive before their route does, so neither table
-// refers to the other. Of a digest, which is as good as random, four bytes find the row and keep
-// the index small. `receipt` has the segments that a scout was receipted: servers write none.
+// One of several equal segments, whichever route's they are, has the bytes; in the others they are
+// NULL. A separate table of bytes would be simpler to read, but a damaged page of names would then
+// cost thirty segments instead of one. Segments may arrive before their route does, so neither
+// table refers to the other. Four bytes of a digest, which is as good as random, find the row and
+// keep the index small. `receipt` has the segments that a scout got acknowledged; servers write
+// none.
 constexpr const char* kSegmentTables = R"(
 CREATE TABLE segment (
   route TEXT NOT NULL,
@@ -72,8 +74,8 @@ CREATE VIRTUAL TABLE route_place USING rtree(
 
 }  // namespace
 
-// Table `route` is what is offered and searched; deleted revisions are apart, so that searching
-// costs nothing for them.
+// Table `route` has what is offered and searched. Deleted revisions are in another one, so that
+// they do not slow down searches.
 void CreateTables(SQLite::Database& db) {
   for (const char* table : {"route", "tombstone"}) {
     db.exec(fmt::format("CREATE TABLE {} (id INTEGER PRIMARY KEY,{}) STRICT", table, kRouteRow));

@@ -4,7 +4,7 @@
 
 namespace trailcast::store {
 
-// In the caller's transaction, into an empty database.
+// Works in the caller's transaction, and needs an empty database.
 void CreateTables(SQLite::Database& db);
 
 }  // namespace trailcast::store

@@ -1,4 +1,5 @@
-// SqliteRouteStore::Verify: everything in the store read once, and what is wrong said line by line.
+// This is SqliteRouteStore::Verify, which reads everything in the store once and reports damage
+// line by line.
 #include "services/store/sqlite_store.h"
 #include "services/store/src/rows.h"
 #include "services/store/src/verify.h"

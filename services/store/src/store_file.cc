@@ -25,7 +25,7 @@ bool HasContent(const std::filesystem::path& path) {
   return std::filesystem::file_size(path, missing) > 0 && !missing;
 }
 
-// Bytes that the header promises; 0 when the header's count is not to be relied on.
+// Returns how many bytes the header promises, or 0 if its count cannot be relied on.
 std::uint64_t PromisedBytes(const SqliteHeader& header) {
   if (!header.page_count_is_current()) return 0;
   return std::uint64_t{header.page_count()} * header.page_bytes();
@@ -39,7 +39,7 @@ Result<StoreFile> StoreFile::Acquire(const std::filesystem::path& path, Conditio
     return Fail(ErrorCode::kCorrupt, "{} is no file (a folder or a device), expected a route store",
                 path.string());
   }
-  // Another file may be put in its place before it is locked, or is to be by now.
+  // Another file may be put in its place before it is locked.
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     Result<StoreFile> file = OpenLocked(path);
     if (!file) return file;
@@ -71,7 +71,7 @@ Result<StoreFile> StoreFile::OpenLocked(const std::filesystem::path& path) {
   }
   StoreFile file(path, descriptor);
   if (Result<void> locked = file.Lock(); !locked) return tl::unexpected(locked.error());
-  // SQLite waits for what is in the file to be on the disk, and not for its name.
+  // SQLite waits until a file's contents are on the disk, but not for the file's name.
   if (const std::error_code failed = is_new ? SyncToDisk(FolderOf(path)) : std::error_code();
       failed) {
     return Fail(ErrorCode::kUnavailable, "cannot write the folder of route store {}: {}",
@@ -87,7 +87,8 @@ bool StoreFile::IsStillThere() const {
          locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
 }
 
-// Closed after SQLite's own descriptors, since closing any of them drops SQLite's record locks.
+// It is closed after SQLite's own descriptors, because closing any of them drops SQLite's record
+// locks.
 StoreFile::~StoreFile() {
   if (descriptor_ >= 0) close(descriptor_);
 }
@@ -115,10 +116,10 @@ Result<void> StoreFile::Inspect() const {
     return Fail(ErrorCode::kUnavailable, "cannot read {}: {}", path_.string(), Reason(errno));
   }
   const auto size = static_cast<std::uint64_t>(status.st_size);
-  if (size == 0) return {};  // new, or its making was interrupted
+  if (size == 0) return {};  // it is new, or its making was interrupted
   SqliteHeader header;
   const ssize_t read = pread(descriptor_, header.bytes.data(), SqliteHeader::kBytes, 0);
-  // Its making was cut off, before its first page or after it; SQLite undoes it by the journal.
+  // Its making was cut off, before or after its first page; SQLite undoes it by the journal.
   const bool is_being_made = HasContent(path_.string() + "-journal");
   const bool is_blank = std::all_of(header.bytes.begin(), header.bytes.end(),
                                     [](std::uint8_t byte) { return byte == 0; });
@@ -137,7 +138,7 @@ Result<void> StoreFile::Inspect() const {
                 "file",
                 path_.string(), version, kSchemaVersion);
   }
-  // With a log beside it the file may rightly be shorter: SQLite then decides when it recovers.
+  // With a log beside it, the file may rightly be shorter; SQLite decides when it recovers.
   const bool has_log = is_being_made || HasContent(path_.string() + "-wal");
   if (size < PromisedBytes(header) && !has_log) {
     return Fail(ErrorCode::kCorrupt,

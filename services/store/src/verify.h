@@ -7,9 +7,9 @@
 
 namespace trailcast::store {
 
-// Reads all that a store, called `name` in messages, has of a revision, and adds a line for
-// whatever is damaged. One that is deleted meanwhile is whole. Errors: the store cannot be read, or
-// its index of the revision is kCorrupt.
+// Reads everything that a store, called `name` in messages, has of a revision, and adds a line for
+// all damage. A revision that is deleted meanwhile counts as whole. Errors: the store cannot be
+// read, or its index of the revision is kCorrupt.
 [[nodiscard]] Result<void> VerifyRevision(RouteStore& store, const std::string& name,
                                           const route::RouteKey& key,
                                           std::vector<std::string>& damage);

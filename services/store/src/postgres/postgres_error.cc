@@ -63,7 +63,7 @@ constexpr Advice kByConnectMessage[] = {
     {"Peer authentication", ErrorCode::kInvalidArgument,
      "; allow a password in PostgreSQL's pg_hba.conf, or name the host"},
 };
-// Others quote the URL, and with it perhaps a password.
+// Other messages quote the URL, and perhaps a password in it.
 constexpr std::string_view kQuotable[] = {"connection to server", "could not translate host name",
                                           "could not connect"};
 
@@ -75,7 +75,7 @@ PostgresTrouble TroubleOf(const std::exception& thrown) {
       state.starts_with("08") || state.starts_with("57P")) {
     return PostgresTrouble::kLost;
   }
-  // A content that another took away while this one was pointing to it, too: 23503.
+  // This includes a content that another transaction deleted while this one pointed to it: 23503.
   const bool in_the_way =
       Is<pqxx::transaction_rollback>(thrown) || state.starts_with("40") || state == "23503";
   return in_the_way ? PostgresTrouble::kInTheWay : PostgresTrouble::kOther;

@@ -1,4 +1,4 @@
-// PostgresRouteStore's routes: storing what is known of them, and finding them.
+// This part of PostgresRouteStore stores routes' descriptions, and finds routes.
 #include <algorithm>
 
 #include "services/base/unix_time.h"
@@ -24,7 +24,7 @@ std::string SelectFrom(const std::string& table) {
   return fmt::format("SELECT {} FROM {} ", kRouteColumns, table);
 }
 
-// "route = excluded.route, teaching = excluded.teaching, .."
+// Returns "route = excluded.route, teaching = excluded.teaching, ..".
 std::string AllFromExcluded() {
   std::string assignments;
   std::string columns = kRouteColumns;
@@ -38,7 +38,7 @@ std::string AllFromExcluded() {
   return assignments;
 }
 
-// What is known of the revisions, tombstones included; nothing of one whose row is damaged.
+// Returns the known revisions, including tombstones, without those whose row is damaged.
 Infos FindKnown(Transaction& transaction, const std::set<RouteKey>& keys) {
   Infos known;
   ForSome(keys, [&](auto begin, auto end) {
@@ -95,7 +95,7 @@ void PutLiving(Transaction& transaction, const Infos& infos) {
   });
 }
 
-// Contents that no other revision has go too.
+// Contents that no other revision has are deleted as well.
 void DeleteSegments(Transaction& transaction, const PostgresValues& keys) {
   (void)keys.Execute(transaction,
                      "DELETE FROM receipt WHERE (route, teaching) IN (" + keys.Rows(2) + ")");
@@ -265,7 +265,8 @@ Result<RoutePage> PostgresRouteStore::QueryRoutes(const RouteQuery& query) {
   const std::size_t wanted = query.page_size == 0 ? kMaxPage : std::min(query.page_size, kMaxPage);
   PostgresValues values;
   values.Add(rest.values());
-  values.Add(static_cast<std::int64_t>(wanted + 1));  // to know whether there is another page
+  values.Add(static_cast<std::int64_t>(wanted + 1));  // one more shows whether there is another
+                                                      // page
   auto found = SelectRoutes(values, fmt::format("SELECT {}{}{} LIMIT ?", kRouteColumns,
                                                 rest.FromWhere(), OrderBy(query.order)));
   if (!found) return tl::unexpected(found.error());

@@ -9,7 +9,7 @@
 namespace trailcast::store {
 namespace {
 
-// Nothing when it has another length than a digest.
+// Returns nothing if it does not have a digest's length.
 std::optional<route::Digest> ReadDigest(const pqxx::field& field) {
   const route::Bytes bytes = ReadBytes(field);
   route::Digest digest{};
@@ -37,7 +37,7 @@ route::Bytes ReadBytes(const pqxx::field& field) {
 }
 
 void PostgresValues::Add(const std::string& text) {
-  // It would be cut off there.
+  // The text would be cut off there.
   if (text.find('\0') != std::string::npos) throw pqxx::argument_error("a text has a zero byte");
   values_.emplace_back(text);
 }

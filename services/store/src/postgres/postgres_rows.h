@@ -14,25 +14,26 @@
 
 namespace trailcast::store {
 
-// The values of a statement's parameters, in their order; what they mean is the statement's to say.
+// The values of a statement's parameters, in their order; the statement gives them their meaning.
 class PostgresValues {
  public:
   void Add(const std::string& text);
   void Add(std::int64_t number) { values_.emplace_back(fmt::format("{}", number)); }
-  void Add(double number) { values_.emplace_back(fmt::format("{}", number)); }  // reads back same
+  // reads back the same
+  void Add(double number) { values_.emplace_back(fmt::format("{}", number)); }
   void AddBytes(const std::uint8_t* bytes, std::size_t size);
   void Add(const route::Digest& digest) { AddBytes(digest.data(), digest.size()); }
   void Add(std::monostate) { values_.emplace_back(std::nullopt); }
   void Add(const route::RouteKey& key);  // two
   void Add(const std::vector<SqlValue>& values);
-  // In the order of kRouteColumns.
+  // Adds them in the order of kRouteColumns.
   void AddRoute(const route::RouteInfo& info);
   void AddSegment(const route::SegmentPiece& piece);  // route, teaching, number, digest, seal
 
   [[nodiscard]] bool empty() const { return values_.empty(); }
-  // "($1,$2),($3,$4)" for rows of two.
+  // Returns "($1,$2),($3,$4)" for rows of two.
   [[nodiscard]] std::string Rows(std::size_t columns) const;
-  // `sql` with its question marks numbered.
+  // Executes `sql` with its question marks numbered.
   [[nodiscard]] pqxx::result Execute(pqxx::transaction_base& transaction,
                                      const std::string& sql) const;
 
@@ -54,19 +55,20 @@ void ForSome(const Items& items, const Work& work) {
 }
 
 [[nodiscard]] route::RouteKey ReadKey(const pqxx::row& row);  // its first two columns
-// A row of kRouteColumns. kCorrupt if it is damaged.
+// Reads a row of kRouteColumns; kCorrupt means that it is damaged.
 [[nodiscard]] Result<route::RouteInfo> ReadRoute(const pqxx::row& row);
-// The columns digest, seal, bytes of a row asked for under this key and index. kCorrupt if its
-// bytes fail their digest, or if damage made the row answer to another's name.
+// Reads the columns digest, seal, bytes of a row that was requested with this key and index.
+// kCorrupt means that its bytes do not match their digest, or that damage made the row match
+// another's key.
 [[nodiscard]] Result<route::SegmentPiece> ReadSegmentRow(const pqxx::row& row,
                                                          const route::RouteKey& key,
                                                          SegmentIndex index);
-// Of its columns `digest` and `seal` alone.
+// Reads its columns `digest` and `seal` alone.
 [[nodiscard]] Result<route::Digest> ReadSegmentDigest(const pqxx::row& row,
                                                       const route::RouteKey& key,
                                                       SegmentIndex index);
 [[nodiscard]] double ReadDouble(const pqxx::field& field);
-// Empty where the column is NULL, as of a content that is gone.
+// Returns no bytes if the column is NULL, as of a content that is gone.
 [[nodiscard]] route::Bytes ReadBytes(const pqxx::field& field);
 
 }  // namespace trailcast::store

@@ -1,4 +1,4 @@
-// PostgresRouteStore's segments: storing and reading them.
+// This part of PostgresRouteStore stores and reads segments.
 #include "services/store/src/postgres/postgres_store.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace trailcast::store {
 namespace {
 
-// From one key to the next, whatever lies between: of a hundred thousand segments of one teaching
-// only the first is looked at.
+// It jumps from one key to the next: of a hundred thousand segments of one teaching it looks only
+// at the first.
 constexpr const char* kListHeld = R"(
 WITH RECURSIVE held AS (
   (SELECT route, teaching, 1 AS number FROM segment WHERE (route, teaching) > (?, ?)
@@ -30,7 +30,7 @@ FROM held ORDER BY number
 using route::RouteKey;
 using route::SegmentPiece;
 
-// Sorted, as two processes that lock the same rows must do so in the same order.
+// Pieces are sorted, because two processes that lock the same rows must do so in the same order.
 using Pieces = std::map<std::pair<RouteKey, SegmentIndex>, const SegmentPiece*>;
 
 void InsertContents(pqxx::transaction_base& transaction, const Pieces& pieces) {
@@ -42,7 +42,7 @@ void InsertContents(pqxx::transaction_base& transaction, const Pieces& pieces) {
       values.Add(each->first);
       values.AddBytes(each->second->bytes.data(), each->second->bytes.size());
     }
-    // One held already is written again only where it is damaged.
+    // A content that is held is written again only if it is damaged.
     (void)values.Execute(transaction,
                          "INSERT INTO content (digest, bytes) VALUES " + values.Rows(2) +
                              " ON CONFLICT (digest) DO UPDATE SET bytes = excluded.bytes "

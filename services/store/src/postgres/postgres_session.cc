@@ -8,11 +8,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Trying to connect may take seconds, during which whoever asks is not answered.
+// Trying to connect may take seconds, in which no client is answered.
 constexpr std::chrono::seconds kReconnectEvery{1};
 constexpr int kAttempts = 5;
 
-// Restored by libpqxx should it reconnect by itself.
+// libpqxx restores these if it reconnects by itself.
 void Configure(pqxx::connection& connection, PostgresSession::Access access) {
   connection.set_client_encoding("UTF8");
   connection.set_variable("search_path", kSchemaName);

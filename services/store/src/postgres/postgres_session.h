@@ -15,8 +15,8 @@
 
 namespace trailcast::store {
 
-// One connection to a PostgreSQL database, made anew when it is lost, and the transactions on it.
-// Not thread-safe.
+// One connection to a PostgreSQL database, which is made again when it is lost, and its
+// transactions. It is not thread-safe.
 class PostgresSession {
  public:
   enum class Access : std::uint8_t { kReadWrite, kReadOnly };
@@ -26,19 +26,18 @@ class PostgresSession {
   };
   using Work = std::function<bool(pqxx::transaction_base&)>;
 
-  // Connects, makes the store's tables where there are none, and checks that they are ours.
-  // kInvalidArgument for what waiting does not mend (URL, password, database, right, version),
-  // kUnavailable when there is no connection at present. Messages say what to do.
-  // `patience` bounds the wait for any one answer; a server that is alive says itself that a
-  // statement takes too long, sooner than after the usual one.
+  // Connects, makes the store's tables if there are none, and checks that they are ours. Errors say
+  // what to do: kInvalidArgument if waiting does not help (URL, password, database, right,
+  // version), kUnavailable if there is no connection at present. `patience` bounds the wait for any
+  // one answer; a live server itself ends a statement that takes too long, sooner than after the
+  // usual patience.
   [[nodiscard]] static Result<std::unique_ptr<PostgresSession>> Open(
       const std::string& url, Access access, std::chrono::milliseconds patience);
 
-  // What `work` returns, a Result, given a transaction, which is committed if that is no error. It
-  // may be run several times: again when the connection was lost and is there again, or when
-  // another process' transaction was in the way. Within another Run's `work` it is part of that
-  // one's transaction. What PostgreSQL refuses comes back as an Error that says what was being
-  // done.
+  // Runs `work` with a transaction and returns its Result; the transaction is committed if that is
+  // no error. `work` may run several times: again when a lost connection is back, or when another
+  // process's transaction interfered. Within another Run's `work` it belongs to that one's
+  // transaction. If PostgreSQL refuses, the Error says what was being done.
   template <typename Function>
   auto Run(Kind kind, const std::string& doing, const Function& work)
       -> std::invoke_result_t<Function, pqxx::transaction_base&> {
@@ -67,17 +66,17 @@ class PostgresSession {
   struct Link {
     explicit Link(const std::string& url) : connection(url), silence(connection) {}
     pqxx::connection connection;
-    pqxx::quiet_errorhandler silence;  // errors are thrown; notices are for nobody
+    pqxx::quiet_errorhandler silence;  // errors are thrown, and nobody needs notices
   };
 
   PostgresUrl url_;
   Access access_;
   SilenceWatch watch_;
-  std::unique_ptr<Link> link_;  // none: lost
+  std::unique_ptr<Link> link_;  // null if it is lost
   std::chrono::steady_clock::time_point reconnect_at_{};
   Error lost_;  // why there is no connection
   pqxx::transaction_base* current_ = nullptr;
-  std::exception_ptr failed_within_;  // what broke the current transaction
+  std::exception_ptr failed_within_;  // why the current transaction broke
 };
 
 }  // namespace trailcast::store

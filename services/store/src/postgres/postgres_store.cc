@@ -1,4 +1,5 @@
-// PostgresRouteStore as a whole; see postgres_routes.cc and postgres_segments.cc for what it holds.
+// This file has PostgresRouteStore as a whole; postgres_routes.cc and postgres_segments.cc have its
+// contents.
 #include "services/store/src/postgres/postgres_store.h"
 
 #include "services/store/src/postgres/postgres_rows.h"

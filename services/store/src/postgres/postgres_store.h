@@ -16,7 +16,7 @@ namespace trailcast::store {
 
 class PostgresValues;
 
-// RouteStore in a PostgreSQL database that several processes may share; made by OpenPostgresStore.
+// RouteStore in a PostgreSQL database that several processes may share, made by OpenPostgresStore.
 class PostgresRouteStore final : public RouteStore {
  public:
   explicit PostgresRouteStore(std::unique_ptr<PostgresSession> session)
@@ -55,19 +55,19 @@ class PostgresRouteStore final : public RouteStore {
   using Keys = std::set<route::RouteKey>;
   using Digests = std::map<std::pair<route::RouteKey, SegmentIndex>, route::Digest>;
 
-  // No other process writes of these revisions until the transaction ends.
+  // Keeps other processes from writing of these revisions until the transaction ends.
   static void Lock(Transaction& transaction, const Keys& keys);
 
   Result<void> Append(Transaction& transaction, std::span<const route::SegmentPiece> pieces);
   [[nodiscard]] Result<void> RefuseBuried(Transaction& transaction, const Keys& keys) const;
-  // The digests of those of `pieces` that are held and whole.
+  // Returns the digests of those of `pieces` that are held and whole.
   static Digests FindHeld(Transaction& transaction, std::span<const route::SegmentPiece> pieces);
   [[nodiscard]] Result<void> Conflict(const route::SegmentPiece& piece,
                                       const route::Digest& held) const;
 
   Result<void> Put(Transaction& transaction, std::span<const route::RouteInfo> infos);
   Result<std::vector<SegmentIndex>> SelectIndices(const route::RouteKey& key, bool unreceipted);
-  // The rows that `sql`, which selects kRouteColumns, gives for these values.
+  // Returns the rows that `sql`, which selects kRouteColumns, gives for these values.
   Result<std::vector<route::RouteInfo>> SelectRoutes(const PostgresValues& values,
                                                      const std::string& sql);
   [[nodiscard]] Result<std::vector<route::RouteInfo>> ReadRoutes(const pqxx::result& rows) const;

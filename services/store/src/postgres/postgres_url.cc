@@ -3,8 +3,8 @@
 namespace trailcast::store {
 namespace {
 
-// A server that is gone without a word is noticed within seconds. What the URL says itself comes
-// later, and wins.
+// A server that is gone without a word is noticed within seconds. The URL's own settings come
+// later, and take precedence.
 constexpr std::string_view kBounds =
     "connect_timeout=3&tcp_user_timeout=10000&keepalives_idle=5&keepalives_interval=2&"
     "keepalives_count=3&application_name=trailcast";

@@ -23,7 +23,7 @@ void SilenceWatch::Run() {
       changed_.wait(lock);
     } else if (changed_.wait_until(lock, watched_->until) == std::cv_status::timeout && watched_ &&
                std::chrono::steady_clock::now() >= watched_->until) {
-      // Closing it is left to its owner, who must not meet another file under its number.
+      // The owner closes the socket, so that nobody meets another file under its number.
       shutdown(watched_->socket, SHUT_RDWR);
       watched_.reset();
     }

@@ -9,7 +9,7 @@
 namespace trailcast::store {
 
 // Breaks a connection whose other end has been silent for too long, for a library that would wait
-// for it for ever: whoever waits on the socket then learns that it is closed. Has a thread.
+// for ever. The thread that waits on the socket then learns that it is closed. It has a thread.
 class SilenceWatch {
  public:
   explicit SilenceWatch(std::chrono::milliseconds patience);
@@ -17,7 +17,7 @@ class SilenceWatch {
   SilenceWatch(const SilenceWatch&) = delete;
   SilenceWatch& operator=(const SilenceWatch&) = delete;
 
-  // An answer on `socket` is waited for from now on, until this is gone. One at a time.
+  // Waits for an answer on `socket` during its lifetime. There is one at a time.
   class Guard {
    public:
     Guard(SilenceWatch& watch, int socket);
@@ -37,7 +37,7 @@ class SilenceWatch {
   void Run();
 
   std::chrono::milliseconds patience_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards everything below
   std::condition_variable changed_;
   std::optional<Watched> watched_;
   bool over_ = false;

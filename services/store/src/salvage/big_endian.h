@@ -6,7 +6,8 @@
 
 namespace trailcast::store {
 
-// The `count` bytes from `at` on, at most 8, as SQLite's files have numbers. All are there.
+// Returns the `count` bytes from `at` on, at most 8, as a number of SQLite's files. All must be
+// there.
 [[nodiscard]] inline std::uint64_t BigEndian(std::span<const std::uint8_t> bytes, std::size_t at,
                                              std::size_t count) {
   std::uint64_t value = 0;

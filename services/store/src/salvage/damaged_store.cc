@@ -10,7 +10,7 @@ namespace {
 using route::RouteInfo;
 using route::RouteKey;
 
-// A store's file that goes with whoever made it.
+// A store's file that its owner deletes.
 class ScratchFile {
  public:
   explicit ScratchFile(std::filesystem::path path) : path_(std::move(path)) {}
@@ -86,7 +86,7 @@ class ReadOnlyStore final : public RouteStore {
     return tl::unexpected(Error{ErrorCode::kUnavailable, reason_});
   }
 
-  std::unique_ptr<ScratchFile> file_;  // outlives store_
+  std::unique_ptr<ScratchFile> file_;  // must outlive store_
   std::unique_ptr<RouteStore> store_;
   std::string reason_;
 };

@@ -14,7 +14,7 @@ namespace {
 using Kind = RecordValue::Kind;
 
 constexpr std::size_t kSegmentColumns = 6;
-// Their first is the row's number, their last when the route has grown.
+// The first column is the row's number, and the last tells when the route has grown.
 constexpr std::size_t kColumnsOfRoute = kRouteColumnCount + 2;
 
 std::string Text(const RecordValue& value) { return {value.bytes.begin(), value.bytes.end()}; }
@@ -40,7 +40,7 @@ std::optional<std::pair<route::RouteKey, SegmentIndex>> WhereOf(const Record& re
                    SegmentIndex(static_cast<std::uint32_t>(number.integer)));
 }
 
-// Whole numbers lie as such in a file, in columns of real ones too.
+// A file has whole numbers as such, even in columns of real ones.
 double Real(const RecordValue& value) {
   return value.kind == Kind::kInteger ? static_cast<double>(value.integer) : value.real;
 }

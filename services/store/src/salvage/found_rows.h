@@ -11,22 +11,23 @@
 namespace trailcast::store {
 
 // These read rows that were found in a damaged file; nothing else here knows the tables' formats.
-// How many columns a row has tells which table's it is.
+// The number of a row's columns tells its table.
 [[nodiscard]] const std::vector<std::size_t>& ColumnsOfInterest();
 inline constexpr std::size_t kReceiptColumns = 3;
 
 struct FoundSegment {
-  route::SegmentPiece piece;  // without bytes: another row's
-  bool sealed = false;        // all but the bytes is as it was stored
+  route::SegmentPiece piece;  // without bytes if they are in another row
+  bool sealed = false;        // everything except the bytes is as it was stored
 };
-// Nothing if it is no row of table `segment`. What it says may be damaged.
+// Returns nothing if it is no row of table `segment`. Its values may be damaged.
 [[nodiscard]] std::optional<FoundSegment> ReadFoundSegment(const Record& record);
 
-// Nothing if it is no row of tables `route` and `tombstone`; kCorrupt if it is damaged.
+// Returns nothing if it is no row of tables `route` and `tombstone`, and kCorrupt if it is damaged.
 [[nodiscard]] std::optional<Result<route::RouteInfo>> ReadFoundRoute(const Record& record);
 
-// Of the entries that one page of some index has, those that must be rows of table `receipt`: they
-// have no seal, and the index of routes by key has entries of the same kind, one for each teaching.
+// Returns, from the entries of one page of some index, those that must be rows of table `receipt`.
+// They have no seal, and the index of routes by key has entries of the same kind, one for each
+// teaching.
 [[nodiscard]] std::vector<std::pair<route::RouteKey, SegmentIndex>> ReadFoundReceipts(
     const std::vector<Record>& entries);
 

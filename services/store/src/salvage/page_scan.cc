@@ -20,7 +20,7 @@ constexpr std::uint8_t kIndexLeaf = 0x0A;
 constexpr std::uint8_t kInnerIndex = 0x02;
 constexpr std::size_t kNextPageBytes = 4;
 constexpr std::size_t kChildBytes = 4;  // before an inner page's cell
-// A segment's bytes and what else its row says; no other row has as much.
+// A segment's bytes and the rest of its row; no other row is as large.
 constexpr std::uint64_t kMostRowBytes = (1U << 20U) + (1U << 12U);
 
 struct TreePage {
@@ -29,7 +29,7 @@ struct TreePage {
   std::span<const std::uint8_t> pointers;  // to its cells
 };
 
-// Nothing for what cannot be a page of a tree.
+// Returns nothing for a page that cannot belong to a tree.
 std::optional<TreePage> ReadTreePage(std::span<const std::uint8_t> page, PageNumber number) {
   const std::size_t begin = number == 1 ? kFileHeaderBytes : 0;
   const std::uint8_t kind = page[begin];
@@ -41,7 +41,7 @@ std::optional<TreePage> ReadTreePage(std::span<const std::uint8_t> page, PageNum
   return TreePage{kind, page, page.subspan(pointers, bytes)};
 }
 
-// "Cell Payload Overflow Pages": of a row's bytes, how many lie in its leaf.
+// "Cell Payload Overflow Pages": returns how many of a row's bytes are in its leaf.
 std::uint64_t LocalBytes(std::uint64_t row_bytes, std::uint64_t usable) {
   const std::uint64_t most = usable - 35;
   if (row_bytes <= most) return row_bytes;
@@ -57,7 +57,7 @@ Result<void> PageScan::Run(const Take& take) {
   unread_rows_ = 0;
   AccountFree();
   Account(pages_.lock_page());
-  // What the file has by itself comes first: it lies together, and is most of it.
+  // The file's own pages come first, because they are together and are most of it.
   for (PageNumber page = 1; page <= pages_.pages(); ++page) {
     if (auto scanned = ScanPage(page, 0, take); !scanned) return scanned;
   }
@@ -75,7 +75,7 @@ void PageScan::Account(PageNumber page) {
   if (page < accounted_.size()) accounted_[page] = true;
 }
 
-// "The Freelist": trunks that name each other and the leaves.
+// "The Freelist": trunks name each other and the leaves.
 void PageScan::AccountFree() {
   std::set<PageNumber> seen;
   for (PageNumber trunk = pages_.first_free(); trunk != 0 && seen.insert(trunk).second;) {
@@ -103,7 +103,7 @@ Result<void> PageScan::ScanPage(PageNumber number, Moment moment, const Take& ta
   }
   if (page->kind != kTableLeaf) return {};
   const Age age = pages_.LastChangeOf(number) == moment ? Age::kCurrent : Age::kPast;
-  // Rows do not overlap: a leaf of which all pointers are the same would be read for ever.
+  // Rows do not overlap. Without this, a leaf with equal pointers would be read for ever.
   std::size_t room = page->page.size();
   for (std::size_t i = 0; i < page->pointers.size(); i += kPointerBytes) {
     const std::size_t at = BigEndian(page->pointers, i, kPointerBytes);
@@ -117,7 +117,7 @@ Result<void> PageScan::ScanPage(PageNumber number, Moment moment, const Take& ta
   return {};
 }
 
-// Entries that go on over further pages are none of ours.
+// Entries that continue on further pages are none of ours.
 void PageScan::ScanIndex(std::span<const std::uint8_t> page, std::span<const std::uint8_t> pointers,
                          std::size_t before_entry) const {
   std::vector<Record> entries;
@@ -140,7 +140,7 @@ Result<void> PageScan::ScanRow(const Cell& cell, const Take& take) {
   const std::span<const std::uint8_t> here = rowid->rest;
   const auto header = ReadRecordHeader(here, *std::max_element(columns_.begin(), columns_.end()));
   if (!header || std::count(columns_.begin(), columns_.end(), header->types.size()) == 0) return {};
-  // By what its columns say: the number before them may be damaged.
+  // The columns' types tell the size, because the number before them may be damaged.
   const std::uint64_t bytes = header->record_bytes;
   const std::uint64_t local = LocalBytes(bytes, pages_.usable_bytes());
   const bool goes_on = local < bytes;

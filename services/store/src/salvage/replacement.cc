@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Under another name as well; a copy where the file system knows no such thing.
+// Gives the file another name as well, or copies it if the file system has no links.
 std::error_code Link(const fs::path& file, const fs::path& name) {
   std::error_code error;
   fs::remove(name, error);
@@ -19,7 +19,7 @@ std::error_code Link(const fs::path& file, const fs::path& name) {
   return error ? error : SyncToDisk(name);
 }
 
-// The first that nobody has, or that a replacement which was cut off gave to this very file.
+// Returns the first name that is free, or that an interrupted replacement gave to this very file.
 fs::path NameToKeep(const fs::path& store) {
   std::error_code ignored;
   fs::path name = store.string() + ".damaged";

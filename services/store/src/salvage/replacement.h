@@ -8,23 +8,22 @@
 
 namespace trailcast::store {
 
-// Another file in a store's place, in steps between any two of which the process may be killed and
-// the disk's power fail: then the old store is there with its log, or the new one without that log,
-// which would be applied to it. The store's lock is held by the caller.
+// Puts another file in a store's place, in steps between which the process may be killed and the
+// power may fail. Either the old store is there with its log, or the new one without that log,
+// which would be applied to it. The caller holds the store's lock.
 class Replacement {
  public:
   explicit Replacement(const std::filesystem::path& store);
 
   [[nodiscard]] const std::filesystem::path& made() const { return made_; }  // the new store
-  // What was there before, afterwards; its log has the same name with "-wal".
+  // Returns the former file afterwards; its log has the same name with "-wal".
   [[nodiscard]] const std::filesystem::path& kept() const { return kept_; }
 
   using Step = std::function<Result<void>()>;
-  // To be done in this order.
+  // Returns the steps in the order in which they must be done.
   [[nodiscard]] std::vector<Step> steps() const;
 
-  // One that was interrupted after the step from which on the new store counts. False: there is
-  // none.
+  // Says whether a replacement was interrupted after the step from which on the new store counts.
   [[nodiscard]] bool IsBegun() const;
   [[nodiscard]] Result<void> Finish() const;
 

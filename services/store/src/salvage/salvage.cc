@@ -40,7 +40,7 @@ Result<Repaired> Repair(const fs::path& file) {
   const auto locked = AcquireDamaged(file);
   if (!locked) return tl::unexpected(locked.error());
   const Replacement replacement(file);
-  Remove(replacement.made());  // by a repair that was cut off
+  Remove(replacement.made());  // left by an interrupted repair
   auto salvaged = SaveWhole(file, replacement.made(), {});
   if (!salvaged) {
     Remove(replacement.made());

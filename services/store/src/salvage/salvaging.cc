@@ -24,7 +24,7 @@ class Salvaging {
   Salvaging(SqlitePages& pages, RouteStore& whole)
       : pages_(pages), scan_(pages, ColumnsOfInterest()), whole_(whole) {}
 
-  // What is lost, apart from what complete routes lack.
+  // Returns what is lost, apart from what complete routes lack.
   Result<std::vector<std::string>> Run() {
     for (auto part : {&Salvaging::SaveRows, &Salvaging::SaveRelying, &Salvaging::SaveNamed,
                       &Salvaging::SaveReceipts, &Salvaging::TellLost}) {
@@ -48,7 +48,7 @@ class Salvaging {
     return FlushSegments();
   }
 
-  // Of several that are found of one revision, the store keeps the latest.
+  // If several are found of one revision, the store keeps the latest.
   Result<bool> TakeRoute(Result<route::RouteInfo> info, Age age) {
     if (!info) {
       NoteDamaged(age);
@@ -72,7 +72,8 @@ class Salvaging {
     return piece.bytes.empty();
   }
 
-  // Segments that rely on another's bytes, if these were saved; so do those whose own are damaged.
+  // Saves segments that rely on another's bytes if these were saved, and also those whose own are
+  // damaged.
   Result<void> SaveRelying() {
     for (auto at = named_.begin(); at != named_.end();) {
       auto content = whole_.FindContent(at->second);
@@ -90,7 +91,7 @@ class Salvaging {
     return FlushSegments();
   }
 
-  // The bytes of the others may lie in rows that do not say any more whose they are.
+  // The bytes of the others may be in rows that have lost their names.
   Result<void> SaveNamed() {
     if (named_.empty()) return {};
     std::multimap<route::Digest, Where> wanted;
@@ -131,8 +132,8 @@ class Salvaging {
     return flushed;
   }
 
-  // What the new store refuses, as of a deleted revision, is not worth more than the rest. A store
-  // that takes nothing, on a full disk, ends it: what was not written would count as lost.
+  // An item that the new store refuses, as of a deleted revision, does not stop the rest. A store
+  // that takes nothing, on a full disk, does, because everything unwritten would count as lost.
   template <typename Item, typename Store>
   static Result<void> Flush(std::span<const Item> items, const Store& store) {
     Result<void> stored = store(items);
@@ -144,7 +145,7 @@ class Salvaging {
     return {};
   }
 
-  // As far as they are sure: a segment without its receipt is only offered again.
+  // Saves the certain ones. A segment without its acknowledgement is only offered again.
   Result<void> SaveReceipts() {
     for (const auto& [key, indices] : receipted_) {
       if (auto noted = whole_.MarkReceipted(key, indices); !noted) return noted;
@@ -168,7 +169,8 @@ class Salvaging {
     return {};
   }
 
-  // Those of routes that are not complete: what the others lack is told of all stores alike.
+  // Tells segments of routes that are not complete; the same code reports for all stores what the
+  // others lack.
   Result<void> TellNamed() {
     std::map<route::RouteKey, std::vector<SegmentIndex>> segments;
     for (const auto& [where, digest] : named_) segments[where.first].push_back(where.second);
@@ -189,13 +191,13 @@ class Salvaging {
   RouteStore& whole_;
   std::vector<route::RouteInfo> routes_;
   std::vector<route::SegmentPiece> pieces_;
-  std::map<Where, route::Digest> named_;  // of which the bytes were not found yet
+  std::map<Where, route::Digest> named_;  // whose bytes were not found yet
   std::map<route::RouteKey, std::vector<SegmentIndex>> receipted_;
   std::size_t damaged_rows_ = 0;
   std::vector<std::string> lost_;
 };
 
-// What the new store has come to hold; adds to what is lost what routes there are nothing known of.
+// Counts what the new store has, and adds routes of which nothing is known to the lost things.
 void Count(SQLite::Database& whole, Salvaged& salvaged) {
   const auto count = [&](const char* table) {
     return static_cast<std::size_t>(

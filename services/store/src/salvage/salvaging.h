@@ -7,7 +7,7 @@
 
 namespace trailcast::store {
 
-// Salvage, for whoever has the file locked.
+// Does what Salvage does, for a caller that has the file locked.
 [[nodiscard]] Result<Salvaged> SaveWhole(const std::filesystem::path& from,
                                          const std::filesystem::path& to,
                                          const SqliteOptions& options);

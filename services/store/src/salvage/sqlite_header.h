@@ -10,8 +10,8 @@
 
 namespace trailcast::store {
 
-// The first bytes of an SQLite file, https://www.sqlite.org/fileformat.html, "The Database Header":
-// big-endian numbers. Nothing of it is believed here.
+// The first bytes of an SQLite file, https://www.sqlite.org/fileformat.html, "The Database Header",
+// as big-endian numbers. Nothing of it is trusted here.
 struct SqliteHeader {
   static constexpr std::size_t kBytes = 100;
   std::array<std::uint8_t, kBytes> bytes{};
@@ -27,7 +27,8 @@ struct SqliteHeader {
   }
   [[nodiscard]] std::uint32_t reserved_bytes() const { return Number(20, 1); }  // of each page
   [[nodiscard]] std::uint32_t page_count() const { return Number(28, 4); }
-  // The count is of the file's last change, not of one by a program that keeps no count.
+  // Says that the count is of the file's last change, and not from before one by a program that
+  // keeps no count.
   [[nodiscard]] bool page_count_is_current() const { return Number(24, 4) == Number(92, 4); }
   [[nodiscard]] std::uint32_t first_free_page() const { return Number(32, 4); }
   [[nodiscard]] std::uint32_t user_version() const { return Number(60, 4); }

@@ -60,13 +60,14 @@ void SqlitePages::ReadHeader(std::uint64_t file_bytes) {
     first_free_ = static_cast<PageNumber>(header.first_free_page());
   }
   const auto there = (file_bytes + page_bytes_ - 1) / page_bytes_;
-  // A header may promise anything: it is believed of a file that was cut, not of one that is empty.
+  // A header may promise anything, so it is trusted for a file that was cut, but not for an empty
+  // one.
   pages_ = static_cast<PageNumber>(std::min<std::uint64_t>(there, UINT32_MAX));
   if (promised > pages_ && promised / 1000 <= pages_) pages_ = promised;
 }
 
-// The log is written from its beginning again once the file has all of it, so that older frames lie
-// behind newer ones; those have the salt of its header.
+// The log is written from its beginning again once the file has all of it, so that older frames are
+// behind newer ones. The newer ones have the salt of its header.
 void SqlitePages::ListFrames(std::uint64_t log_bytes) {
   const auto header = ReadHead<kLogHeaderBytes>(log_, 0);
   if (!header) return;
@@ -87,7 +88,7 @@ void SqlitePages::ListFrames(std::uint64_t log_bytes) {
   }
 }
 
-// What a file that was cut short still has of its last page counts, the rest is zero.
+// The rest of a cut file's last page counts, filled up with zeros.
 std::optional<route::Bytes> SqlitePages::ReadAt(std::ifstream& from, std::uint64_t offset) const {
   route::Bytes page(page_bytes_);
   from.clear();

@@ -13,33 +13,31 @@ namespace trailcast::store {
 
 using PageNumber = std::uint32_t;  // from 1 on
 
-// The pages of an SQLite file as they lie there, and those in the log beside it, for whoever saves
-// what is left of them: nothing in either is believed, and no SQLite is needed to read it.
-// https://www.sqlite.org/fileformat.html
+// Reads the pages of an SQLite file, and those in the log beside it, to save what is left of them.
+// It trusts nothing in either, and needs no SQLite. https://www.sqlite.org/fileformat.html
 class SqlitePages {
  public:
-  // How many of the log's frames, counted from the oldest, are taken to have happened. 0: the file
-  // alone.
+  // How many of the log's frames, from the oldest on, count as done. 0 means the file alone.
   using Moment = std::size_t;
 
   // A file that cannot be read has no pages.
   explicit SqlitePages(const std::filesystem::path& file);
 
-  // The header says that it is one of our stores, whatever the rest of it says.
+  // Says whether the header marks one of our stores, whatever the rest of it is.
   [[nodiscard]] bool is_store() const { return is_store_; }
   [[nodiscard]] std::uint32_t usable_bytes() const { return usable_bytes_; }  // of a page
-  // That should be there: in the file, or as its header says of one that was cut short.
+  // Returns how many pages there should be: in the file, or by its header if it was cut short.
   [[nodiscard]] PageNumber pages() const { return pages_; }
-  [[nodiscard]] PageNumber first_free() const { return first_free_; }  // 0: none
+  [[nodiscard]] PageNumber first_free() const { return first_free_; }  // 0 for none
 
-  // That SQLite leaves out, in a file that is large enough to have it.
+  // Returns the page that SQLite leaves out in a file that is large enough to have it.
   [[nodiscard]] PageNumber lock_page() const { return (1U << 30U) / page_bytes_ + 1; }
 
   [[nodiscard]] Moment latest() const { return frames_.size(); }
-  // The page that the log's `moment`th frame has.
+  // Returns the page of the log's frame number `moment`.
   [[nodiscard]] PageNumber PageAt(Moment moment) const { return frames_[moment - 1].page; }
   [[nodiscard]] Moment LastChangeOf(PageNumber page) const;
-  // Nothing for a page that is not there, or that the disk does not give.
+  // Returns nothing for a page that is not there, or that the disk does not return.
   [[nodiscard]] std::optional<route::Bytes> Read(PageNumber page, Moment moment);
 
  private:
@@ -54,11 +52,11 @@ class SqlitePages {
   std::ifstream file_;
   std::ifstream log_;
   bool is_store_ = false;
-  std::uint32_t page_bytes_ = 4096;  // what SQLite makes unless told otherwise
+  std::uint32_t page_bytes_ = 4096;  // SQLite's default
   std::uint32_t usable_bytes_ = 4096;
   PageNumber pages_ = 0;
   PageNumber first_free_ = 0;
-  std::vector<Frame> frames_;                          // oldest first
+  std::vector<Frame> frames_;                          // the oldest first
   std::map<PageNumber, std::vector<Moment>> page_at_;  // the moments that changed a page, rising
 };
 

@@ -13,7 +13,7 @@ using Kind = RecordValue::Kind;
 constexpr std::uint64_t kRealType = 7;
 constexpr std::uint64_t kZeroType = 8;
 constexpr std::uint64_t kOneType = 9;
-constexpr std::uint64_t kFirstBlobType = 12;  // even: a blob; odd: a text
+constexpr std::uint64_t kFirstBlobType = 12;  // even for a blob, odd for a text
 constexpr std::uint64_t kMostBytes = 1U << 30U;
 
 bool IsPossible(std::uint64_t type) {
@@ -25,7 +25,7 @@ std::size_t BytesOf(std::uint64_t type) {
   return type < kFixed.size() ? kFixed.at(type) : (type - kFirstBlobType) / 2;
 }
 
-// Two's complement of as many bytes.
+// Reads a number in two's complement of so many bytes.
 std::int64_t ReadInteger(std::span<const std::uint8_t> bytes) {
   const std::uint64_t raw = BigEndian(bytes, 0, bytes.size());
   const auto unused = static_cast<unsigned>(64 - 8 * bytes.size());
