@@ -17,7 +17,8 @@ constexpr std::chrono::milliseconds kKept{1000};
 constexpr double kUnhidden = 0.8;
 // Something that hides the view for longer is there to stay.
 constexpr std::chrono::milliseconds kHidden{2000};
-// For so long the view may be uncertain, with as many signs of motion as of standing.
+// If a visible scene does not show for so long that the robot stands, the robot may as well have
+// moved.
 constexpr std::chrono::milliseconds kInDoubt{300};
 // Fewer features agree by chance.
 constexpr std::size_t kFewestAgree = 8;

@@ -7,7 +7,7 @@
 namespace trailcast::agent {
 namespace {
 
-// The robot may have gone on so far when it finds the route.
+// The robot must find itself within this distance of where it comes onto the route.
 constexpr double kFound_m = 1.0;
 // The number of places about the junction that are tried, one in each picture. Looking further
 // takes a second, in which nobody would watch where the robot drives.
