@@ -14,7 +14,7 @@ enum class ErrorCode {
   kNotFound,         // there is no such file, route or segment
   kCorrupt,          // bytes do not match their digest or cannot be decoded
   kConflict,         // this contradicts what exists (same segment with other bytes; name taken)
-  kUnavailable,      // the disk is full, no server answers, ..: it may work later
+  kUnavailable,      // disk full, no server, network down: it may work later
   kInternal,         // a library refused something that should have worked
 };
 
