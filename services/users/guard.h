@@ -32,7 +32,7 @@ struct Turned {
 };
 
 // Logs users in and recognises them afterwards. Any thread may call it. LogIn hashes one password
-// at a time, on a thread of the lowest priority, and nothing else waits for that.
+// at a time, on a thread of low priority, and nothing else waits for that.
 class Guard {
  public:
   using Time = std::chrono::steady_clock::time_point;

@@ -15,14 +15,16 @@ using std::chrono::milliseconds;
 constexpr Throttle::Pace kAddressPace{.free = 5, .longest = milliseconds(15 * 60 * 1000)};
 constexpr Throttle::Pace kNamePace{.free = 5};
 
-// Works on a thread of its own, because a robot's stop must not wait for a stranger's password. It
-// returns nothing if there was no thread or no memory for it.
-std::optional<bool> InIdleTime(const std::function<bool()>& matches) {
+// Works on a thread of its own, because a robot's stop must not wait for a stranger's password. The
+// thread gives way, but keeps a tenth of a processor beside others that would take all of it: at
+// the lowest priority, whoever logs in on a busy machine waits for minutes. It returns nothing if
+// there was no thread or no memory for it.
+std::optional<bool> BesideOthers(const std::function<bool()>& matches) {
   try {
     return std::async(std::launch::async,
                       [&] {
-                        constexpr int kLowest = 19;
-                        GiveWay(kLowest);
+                        constexpr int kATenth = 10;
+                        GiveWay(kATenth);
                         return matches();
                       })
         .get();
@@ -69,9 +71,10 @@ std::variant<std::string, Turned> Guard::LogIn(const std::string& name, const st
   const std::string kept = found == users.end() ? "" : found->second.password;
   hashes_ = true;
   lock.unlock();
-  const std::optional<bool> matches = password.size() > kLongestPassword ? false : InIdleTime([&] {
-    return parts_.matches(password, kept.empty() ? NobodysHash() : kept);
-  });
+  const std::optional<bool> matches =
+      password.size() > kLongestPassword ? false : BesideOthers([&] {
+        return parts_.matches(password, kept.empty() ? NobodysHash() : kept);
+      });
   lock.lock();
   hashes_ = false;
   hashed_.notify_one();
