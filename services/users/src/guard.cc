@@ -16,9 +16,9 @@ constexpr Throttle::Pace kAddressPace{.free = 5, .longest = milliseconds(15 * 60
 constexpr Throttle::Pace kNamePace{.free = 5};
 
 // Works on a thread of its own, because a robot's stop must not wait for a stranger's password. The
-// thread gives way, but keeps a tenth of a processor beside others that would take all of it: at
-// the lowest priority, whoever logs in on a busy machine waits for minutes. It returns nothing if
-// there was no thread or no memory for it.
+// thread gives way, but keeps a tenth of what another that takes all it can get has; at the lowest
+// priority it would keep a seventieth. It returns nothing if there was no thread or no memory for
+// it.
 std::optional<bool> BesideOthers(const std::function<bool()>& matches) {
   try {
     return std::async(std::launch::async,
