@@ -9,6 +9,7 @@
 #include "agent/session/src/place/path_ahead.h"
 #include "agent/session/src/place/view_follower.h"
 #include "services/base/angles.h"
+#include "services/belief/route_belief.h"
 
 namespace trailcast::agent {
 namespace {
@@ -24,8 +25,7 @@ constexpr double kApart = 0.5;  // the route's units
 constexpr double kRushes = 0.025;
 // No view of another place agrees in so many features.
 constexpr int kRecognised = 8;
-// As many as a held place asks for in the median (belief::RouteBeliefOptions::least_agreed).
-constexpr int kGlimpsed = 5;
+constexpr int kGlimpsed = belief::RouteBeliefOptions{}.least_agreed;  // as a held place has it
 // What a robot that stands does not see where it should be, it will not see there later.
 constexpr double kLookThere_s = 1.5;
 constexpr double kLensTurn_rad = 0.2;
@@ -229,8 +229,8 @@ void FeatureFollower::Compare(const RoutePoint& point, Sighting& sighting) const
   const bool sees = AsPrinted(options_.method) || place_.agreed_now() >= kRecognised;
   const int enough = drives ? kEnoughAgreedDriving : kEnoughAgreed;
   sighting.elsewhere = !here && sees && place_.where().agreed >= enough;
-  // By which nobody is steered backwards: what is beside the path then asks for the wrong turn.
   sighting.glimpsed = here && place_.agreed_now() >= kGlimpsed;
+  // By which nobody is steered backwards: what is beside the path then asks for the wrong turn.
   sighting.recognised = here && options_.method == ReplayMethod::kDefault &&
                         !follower_->segment().reverse && place_.agreed_now() >= kRecognised;
 }
