@@ -33,7 +33,7 @@ class Domain;
 // light members.
 struct SharedDomain {
   std::weak_ptr<Domain> domain;
-  std::string by;  // the network interface for which it was made
+  std::string by;  // the network interface and the servers for which it was made
 };
 
 struct DdsOptions {
@@ -45,8 +45,8 @@ struct DdsOptions {
   // which only "lo" selects. If the interface disappears or gets another address, the exchange
   // leaves and joins again, as with new keys.
   std::string network_interface;
-  // If there is no network yet, or a server's name has no address, the exchange waits instead of
-  // failing.
+  // If there is no network yet, or no server's name has an address, the exchange waits instead of
+  // failing. If some have one, it goes by those, and looks the others up again and again.
   bool waits_for_network = false;
   // Called with a line when the exchange waits, when it has joined, and for each change after that.
   // OpenDdsExchange and Take call it.
@@ -63,7 +63,9 @@ struct DdsOptions {
   // of its domain (7410 and 7411, 250 more for each domain above 0) if those are free on this
   // machine.
   bool serves = false;
-  // Names or IPv4 addresses of route servers, to reach them where there is no multicast.
+  // Names or IPv4 addresses of route servers, to reach them where there is no multicast. Names at
+  // whose addresses no server is heard are looked up again. If one has another address then, the
+  // exchange joins again.
   std::vector<std::string> server_addresses{};
   // Called with how others are met, if that differs from the request or changes. OpenDdsExchange
   // and Take call it.

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "services/dds/src/domain/peers.h"
@@ -61,6 +62,11 @@ void Arrivals::Lose(const std::string& participant) {
 void Arrivals::Forget() {
   seen_.clear();
   writers_.clear();
+}
+
+bool Arrivals::IsPresent(const std::string& address) const {
+  return std::any_of(seen_.begin(), seen_.end(),
+                     [&](const auto& one) { return one.second.address == address; });
 }
 
 exchange::Arrival Arrivals::Of(const Reader& reader, const dds_sample_info_t& sample) {

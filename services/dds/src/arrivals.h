@@ -19,6 +19,8 @@ class Arrivals {
   void Lose(const std::string& participant);
   // Forgets everything, for an exchange that joins again.
   void Forget();
+  // Says whether a participant is present that listens at `address`, "10.0.0.7:7410".
+  [[nodiscard]] bool IsPresent(const std::string& address) const;
   // Returns the arrival of a sample that `reader` has just taken. It has no address until its
   // participant was seen.
   [[nodiscard]] exchange::Arrival Of(const Reader& reader, const dds_sample_info_t& sample);

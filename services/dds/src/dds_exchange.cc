@@ -15,6 +15,7 @@
 #include "services/dds/src/domain/interfaces.h"
 #include "services/dds/src/domain/joined.h"
 #include "services/dds/src/domain/network_watch.h"
+#include "services/dds/src/domain/server_names.h"
 #include "services/dds/src/domain/star_or_mesh.h"
 #include "services/dds/src/keys_watch.h"
 #include "services/dds/src/reminders.h"
@@ -63,6 +64,7 @@ class DdsExchange : public exchange::RouteExchange {
       : options_(options),
         use_(std::move(use)),
         network_(WatchFor(options)),
+        servers_(options.server_addresses),
         star_or_mesh_(options.discovery, RandomShare()),
         versions_(options.protocol_version, options.keys.has_value()) {
     if (options_.keys) keys_watch_.emplace(*options_.keys, options_.tell_of_stranger);
@@ -85,6 +87,7 @@ class DdsExchange : public exchange::RouteExchange {
   Result<void> Join();
   void TryToJoin(Clock::time_point now);
   void LookAtNetwork(Clock::time_point now);
+  void LookForServers(Clock::time_point now);
   void TellOfNetwork(const std::string& line);
   [[nodiscard]] std::string WhyNotJoined() const;
   void ShowNetworkState();
@@ -127,6 +130,7 @@ class DdsExchange : public exchange::RouteExchange {
   Reminders reminders_;       // for a star
 
   NetworkWatch network_;
+  ServerNames servers_;
   std::string line_;     // about the network, reported once it has joined
   std::string why_not_;  // why joining failed; empty if it did not
   Clock::time_point try_at_{};
@@ -183,8 +187,14 @@ void DdsExchange::ShowNetworkState() {
 
 Result<void> DdsExchange::Join() {
   joined_.reset();
-  auto joined =
-      Joined::Open(options_, use_, star_or_mesh_.star(), network_.chosen().front().address);
+  const auto found = servers_.FindAll();
+  const std::vector<std::string> servers = servers_.addresses();
+  if (!found && (servers.empty() || !options_.waits_for_network)) return found;
+  if (!found) TellOfNetwork(found.error().message + "; going by the others");
+  auto joined = Joined::Open(options_, use_,
+                             {.star = star_or_mesh_.star(),
+                              .address = network_.chosen().front().address,
+                              .servers = servers});
   if (!joined) return tl::unexpected(joined.error());
   joined_ = *std::move(joined);
   versions_.Forget();
@@ -431,6 +441,7 @@ void DdsExchange::KeepWatch() {
   LookAtNetwork(now);
   if (options_.keys) TakeUpNewKeys();
   if (joined_) LookAtPeers(now);
+  if (joined_) LookForServers(now);
   if (joined_ && options_.discovery != Discovery::kMesh) MeetOthers(now);
   if (!joined_ && !network_.chosen().empty() && now >= try_at_) TryToJoin(now);
   TellWhoIsMissing(now);
@@ -449,6 +460,19 @@ void DdsExchange::LookAtNetwork(Clock::time_point now) {
   } else {
     line_ = network_.change();
   }
+}
+
+// What was heard of a server that is elsewhere now is gone with it; others are told good-bye.
+void DdsExchange::LookForServers(Clock::time_point now) {
+  const auto hears = [this](const std::string& address) {
+    return arrivals_.IsPresent(ServerAt(address, options_.domain_id));
+  };
+  std::string change = servers_.Look(hears, now);
+  if (change.empty()) return;
+  SayGoodBye();
+  Leave();
+  try_at_ = {};
+  line_ = std::move(change);
 }
 
 void DdsExchange::TryToJoin(Clock::time_point now) {

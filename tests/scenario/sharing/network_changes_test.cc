@@ -84,6 +84,12 @@ class NetworkChanges : public ProgramsTest {
     EXPECT_GT(HeldBy("scout.db"), 0U);
     EXPECT_EQ(HeldBy("server.db"), HeldBy("scout.db"));
   }
+  // Where the words of a command at a host know 'server.example' by the file `hosts`.
+  static Words Knowing(const std::string& hosts, const Words& words) {
+    return With({"/usr/bin/unshare", "--mount", "--propagation", "private", "/bin/sh", "-c",
+                 "mount --bind \"$0\" /etc/hosts && exec \"$@\"", hosts},
+                words);
+  }
   static int LinesWith(const std::string& text, const std::string& what) {
     int lines = 0;
     for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++lines;
@@ -156,6 +162,31 @@ TEST_F(NetworkChanges, AServerThatGetsAnotherAddressIsFoundAgain) {
   ASSERT_TRUE(server_->WaitForOutput("instead of eth0 (10.77.0.1)")) << server_->output();
   EXPECT_TRUE(PageSays("/metrics", "trailcast_network_joins_total 2"));
   ExpectAllDelivered(*scout);
+}
+
+TEST_F(NetworkChanges, AServerThatARobotKnowsByNameIsFollowedToItsOtherAddress) {
+  StartServerOnItsNetwork();
+  lab_->GiveAddress(kRobot, kRobot);
+  lab_->ForbidMulticast();
+  const std::string hosts = Path("hosts");
+  std::ofstream(hosts) << "10.77.0.1 server.example\n";
+  const Words follower = With({ProgramsDir() + "/trailcast-agent"},
+                              With(ReplayWords(Walk("seen", 2), "follower.db"),
+                                   {"--name", "robot1", "--server", "--wait-for-route",
+                                    "--discovery", "star", "--server-address", "server.example"}));
+  Process robot(lab_->At(kRobot, Knowing(hosts, follower)), Path("robot.log"));
+  ASSERT_TRUE(robot.WaitForOutput("server 'server' is there")) << robot.output();
+
+  lab_->TakeAddress(kServer, kServer);
+  lab_->GiveAddress(kServer, kServer + kElsewhere);
+  ASSERT_TRUE(server_->WaitForOutput("instead of eth0 (10.77.0.1)")) << server_->output();
+  std::ofstream(hosts) << "10.77.0.101 server.example\n";
+  ASSERT_TRUE(robot.WaitForOutput("'server.example' leads to 10.77.0.101 now instead of 10.77.0.1"))
+      << robot.output();
+  const Ended reach =
+      RunAt(kServer, "trailcast",
+            {"reach", "server", "robot1", "--listen", "100", "--server-address", "10.77.0.101"});
+  EXPECT_EQ(reach.status, 0) << reach.output << robot.output();
 }
 
 TEST_F(NetworkChanges, AnInterfaceThatIsMadeAnewIsJoinedAnew) {

@@ -1,12 +1,9 @@
 #include "services/dds/src/domain/discovery_config.h"
 
-#include <arpa/inet.h>
-#include <netdb.h>
+#include <fmt/format.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
-
-#include <memory>
 
 namespace trailcast::dds {
 namespace {
@@ -30,29 +27,6 @@ std::string Peer(const std::string& address, std::uint32_t port) {
   return fmt::format("<Peer Address=\"{}:{}\"/>", address, port);
 }
 
-// Cyclone silently ignores a name without an address, and never tries again.
-Result<std::string> ServerPeers(const DdsOptions& options) {
-  std::string peers;
-  for (const std::string& address : options.server_addresses) {
-    addrinfo hints{};
-    hints.ai_family = AF_INET;
-    hints.ai_socktype = SOCK_DGRAM;
-    addrinfo* found = nullptr;
-    if (const int failed = getaddrinfo(address.c_str(), nullptr, &hints, &found); failed != 0) {
-      return Fail(ErrorCode::kUnavailable, "the server address '{}' leads nowhere: {}", address,
-                  gai_strerror(failed));
-    }
-    const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> all(found, &freeaddrinfo);
-    for (const addrinfo* one = all.get(); one != nullptr; one = one->ai_next) {
-      char text[INET_ADDRSTRLEN] = "";
-      const auto* in = reinterpret_cast<const sockaddr_in*>(one->ai_addr);
-      inet_ntop(AF_INET, &in->sin_addr, text, sizeof(text));
-      peers += Peer(text, PortOf(options.domain_id, kServerMeta));
-    }
-  }
-  return peers;
-}
-
 bool IsFree(std::uint32_t port) {
   const int handle = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in any{};
@@ -65,15 +39,20 @@ bool IsFree(std::uint32_t port) {
 
 }  // namespace
 
-Result<std::string> DiscoveryConfig(const DdsOptions& options, const Meeting& meeting) {
-  const auto servers = ServerPeers(options);
-  if (!servers) return servers;
+std::string ServerAt(const std::string& address, std::uint32_t domain_id) {
+  return fmt::format("{}:{}", address, PortOf(domain_id, kServerMeta));
+}
+
+std::string DiscoveryConfig(const DdsOptions& options, const Meeting& meeting) {
   const std::uint32_t domain = options.domain_id;
   std::string general;
   std::string discovery;
-  std::string peers = *servers;
+  std::string peers;
+  for (const std::string& address : meeting.servers) {
+    peers += Peer(address, PortOf(domain, kServerMeta));
+  }
   std::string internal;
-  if (meeting.star && !servers->empty()) {
+  if (meeting.star && !meeting.servers.empty()) {
     // Addresses are given where multicast does not work, so data must not use it either.
     general = "<AllowMulticast>false</AllowMulticast>";
   } else if (meeting.star) {

@@ -144,9 +144,7 @@ Result<std::string> DomainConfig(const DdsOptions& options, const Meeting& meeti
   config += fmt::format(",<CycloneDDS><Domain>{}<Discovery>{}</Discovery></Domain></CycloneDDS>",
                         general, discovery);
   config += std::string(",") + kEndsWithoutNetwork;
-  const auto meet = DiscoveryConfig(options, meeting);
-  if (!meet) return meet;
-  config += "," + *meet;
+  config += "," + DiscoveryConfig(options, meeting);
   if (options.keys) {
     const auto secured = SecurityConfig(*options.keys);
     if (!secured) return secured;

@@ -16,17 +16,21 @@
 namespace trailcast::dds {
 namespace {
 
+std::string WayOf(const Meeting& meeting) {
+  return fmt::format("{} {}", meeting.address, fmt::join(meeting.servers, " "));
+}
+
 Result<std::shared_ptr<Domain>> MakeDomain(const DdsOptions& options, const Meeting& meeting) {
   if (options.shared_domain) {
     auto domain = options.shared_domain->domain.lock();
-    if (domain && options.shared_domain->by == meeting.address) return domain;
+    if (domain && options.shared_domain->by == WayOf(meeting)) return domain;
   }
   const auto config = DomainConfig(options, meeting, CycloneUri());
   if (!config) return tl::unexpected(config.error());
   auto made = Domain::Create(*config);
   if (!made) return tl::unexpected(made.error());
   auto domain = std::make_shared<Domain>(*std::move(made));
-  if (options.shared_domain) *options.shared_domain = {domain, meeting.address};
+  if (options.shared_domain) *options.shared_domain = {domain, WayOf(meeting)};
   return domain;
 }
 
@@ -110,14 +114,12 @@ Result<void> OpenTopics(Joined& joined, const DdsOptions& options, const exchang
 
 }  // namespace
 
-Result<Joined> Joined::Open(const DdsOptions& options, const exchange::TopicUse& use, bool star,
-                            const std::string& address) {
-  const bool fixed_ports = options.serves && FixedPortsAreFree(options.domain_id);
-  const bool sends_much =
+Result<Joined> Joined::Open(const DdsOptions& options, const exchange::TopicUse& use,
+                            Meeting meeting) {
+  meeting.fixed_ports = options.serves && FixedPortsAreFree(options.domain_id);
+  meeting.sends_much =
       std::count(use.write.begin(), use.write.end(), exchange::Topic::kSegments) > 0;
-  auto joined = OpenDomain(
-      options,
-      {.star = star, .fixed_ports = fixed_ports, .sends_much = sends_much, .address = address});
+  auto joined = OpenDomain(options, std::move(meeting));
   if (!joined) return joined;
   if (options.discovery != Discovery::kMesh) {
     auto others = Reader::CreateBuiltin(joined->participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT);

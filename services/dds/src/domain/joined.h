@@ -42,12 +42,13 @@ struct Joined {
   std::optional<Reader> participants{};          // unless it is always in a mesh
   std::set<dds_instance_handle_t> present{};     // participants at present, including itself
 
-  // Opens everything on the interface that has `address`, if neither the options nor Cyclone's
-  // configuration name one. With keys, its writers are in the member's own partition and those
-  // below, and its readers in all. Topics that are listened to by route have nothing open at first.
-  // A route server takes the fixed ports if it can; `meeting` then tells whether it has.
+  // Opens everything on the interface that has the address of `meeting`, if neither the options nor
+  // Cyclone's configuration name one. With keys, its writers are in the member's own partition and
+  // those below, and its readers in all. Topics that are listened to by route have nothing open at
+  // first. A route server takes the fixed ports if it can; the member `meeting` then tells whether
+  // it has.
   [[nodiscard]] static Result<Joined> Open(const DdsOptions& options, const exchange::TopicUse& use,
-                                           bool star, const std::string& address);
+                                           Meeting meeting);
   // Returns who is connected at present.
   [[nodiscard]] StarOrMesh::Seen Look();
 
