@@ -7,7 +7,8 @@
 namespace trailcast::program {
 
 // Reads TOML as CLI11 does, with comments wherever TOML allows them. CLI11 2.1 takes a comment
-// behind a section's header for part of its name, and a '#' in a quoted value for a comment.
+// behind a section's header for part of its name, and a '#' in a quoted value for a comment. A key
+// that a section has twice, of which CLI11 takes the first, is an error, as in TOML.
 class Toml : public CLI::ConfigTOML {
  public:
   [[nodiscard]] std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -47,8 +50,30 @@ std::string Explain(const CLI::App& app, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ConfigError*>(&error) == nullptr) return message;
   const std::string prefix = "INI was not able to parse ";
   if (message.rfind(prefix, 0) != 0) return message;
-  return fmt::format("the configuration file has a key '{}' that is not known; {}",
-                     message.substr(prefix.size()), AcceptedKeys(app));
+  std::string key = message.substr(prefix.size());
+  constexpr const char* kBegins = ".++";  // CLI11's item for the beginning of a section
+  const bool section = key.ends_with(kBegins);
+  if (section) key = fmt::format("[{}]", key.substr(0, key.size() - std::strlen(kBegins)));
+  constexpr std::size_t kMostShown = 100;
+  if (key.size() > kMostShown) key = key.substr(0, kMostShown) + "...";
+  return fmt::format("the configuration file has a {} '{}' that is not known; {}",
+                     section ? "section" : "key", key, AcceptedKeys(app));
+}
+
+// CLI11's ranges let NaN pass, because it is neither below nor above them.
+void RefuseWhatIsNoNumber(CLI::App& app) {
+  const CLI::Validator finite(
+      [](std::string& text) {
+        if (std::isfinite(std::strtod(text.c_str(), nullptr))) return std::string();
+        return fmt::format("'{}' is no number that can be used", text);
+      },
+      "");
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_type_name().starts_with("FLOAT")) option->check(finite);
+  }
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    RefuseWhatIsNoNumber(*command);
+  }
 }
 
 }  // namespace
@@ -111,6 +136,7 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
 }
 
 std::optional<int> Parse(CLI::App& app, int argc, char** argv) {
+  RefuseWhatIsNoNumber(app);
   try {
     app.parse(argc, argv);
     return std::nullopt;

@@ -1,6 +1,9 @@
 #include "services/program/toml.h"
 
+#include <fmt/format.h>
+
 #include <iterator>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -27,6 +30,31 @@ std::string WithoutComment(const std::string& line) {
   return end == 0 || last == std::string::npos ? "" : line.substr(0, last + 1);
 }
 
+// Finds keys that a section has twice.
+class Keys {
+ public:
+  // Takes the lines one by one.
+  void Take(const std::string& line) {
+    const std::size_t begin = line.find_first_not_of(" \t");
+    if (begin == std::string::npos) return;
+    if (line[begin] == '[') {
+      section_ = line.substr(begin);
+      return;
+    }
+    const std::size_t equals = line.find('=', begin);
+    if (equals == std::string::npos) return;  // a part of an array, or no TOML
+    std::string key = line.substr(begin, equals - begin);
+    key.erase(key.find_last_not_of(" \t") + 1);
+    if (seen_.insert(section_ + ' ' + key).second) return;
+    throw CLI::ConfigError(fmt::format("the configuration file has the key '{}' twice{}: keep one",
+                                       key, section_.empty() ? "" : " in " + section_));
+  }
+
+ private:
+  std::string section_;
+  std::set<std::string> seen_;
+};
+
 }  // namespace
 
 std::vector<CLI::ConfigItem> Toml::from_config(std::istream& input) const {
@@ -35,8 +63,11 @@ std::vector<CLI::ConfigItem> Toml::from_config(std::istream& input) const {
     throw CLI::ConfigError("the configuration file cannot be read: " + text.error().message);
   std::istringstream plain(*text);
   std::stringstream without_comments;
+  Keys keys;
   for (std::string line; std::getline(plain, line);) {
-    without_comments << WithoutComment(line) << '\n';
+    line = WithoutComment(line);
+    keys.Take(line);
+    without_comments << line << '\n';
   }
   CLI::ConfigTOML reader;
   reader.comment('\0');  // comments are already removed

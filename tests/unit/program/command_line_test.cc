@@ -3,7 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/temp_dir.h"
 
 namespace trailcast::program {
 namespace {
@@ -52,6 +57,57 @@ TEST(Help, ExplainsAllOptionsWhenAskedTo) {
               AllOf(HasSubstr("Which route it follows"), HasSubstr("Where routes are kept"),
                     HasSubstr("How the camera is turned"), HasSubstr("DDS domain"),
                     Not(HasSubstr("More options"))));
+}
+
+class RefusedTest : public testing::Test {
+ protected:
+  RefusedTest() {
+    AddCommonOptions(program_.app, program_.common);
+    program_.app.add_option("--within", within_)->check(CLI::PositiveNumber);
+    CLI::App* command = program_.app.add_subcommand("drive");
+    command->add_option("--speed", speed_)->check(CLI::Range(0.1, 3.0));
+  }
+  // What is said of a command line, with --config if `config` has anything.
+  std::string Told(std::vector<std::string> words, const std::string& config = "") {
+    const test::TempDir folder;
+    if (!config.empty()) {
+      std::ofstream(folder / "c.toml") << config;
+      words.insert(words.begin(), {"--config", (folder / "c.toml").string()});
+    }
+    std::vector<char*> argv{program_name_.data()};
+    for (std::string& word : words) argv.push_back(word.data());
+    testing::internal::CaptureStderr();
+    const auto status = Parse(program_.app, static_cast<int>(argv.size()), argv.data());
+    std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(status.has_value(), !said.empty());
+    return said;
+  }
+
+  struct {
+    CommonOptions common;
+    CLI::App app{"A program", "program"};
+  } program_;
+  std::string program_name_ = "program";
+  double within_ = 1.0;
+  double speed_ = 1.0;
+};
+
+TEST_F(RefusedTest, WhatIsNoNumber) {
+  for (const char* text : {"nan", "NaN", "-nan", "nan(1)", "inf"}) {
+    EXPECT_THAT(Told({"drive", "--speed", text}), HasSubstr("--speed")) << text;
+    EXPECT_THAT(Told({"--within", text, "drive"}), HasSubstr("--within")) << text;
+    EXPECT_THAT(Told({"drive"}, fmt::format("[drive]\nspeed = {}\n", text)), HasSubstr("--speed"))
+        << text;
+  }
+  EXPECT_EQ(Told({"--within", "2e3", "drive", "--speed", "0.5"}), "");
+  EXPECT_EQ(speed_, 0.5);
+}
+
+TEST_F(RefusedTest, SectionsAndKeysThatAreNotKnownByName) {
+  EXPECT_THAT(Told({"drive"}, "[drvie]\nspeed = 1\n"),
+              AllOf(HasSubstr("section '[drvie]'"), HasSubstr("in [drive]: ")));
+  EXPECT_THAT(Told({"drive"}, "[drive]\nspede = 1\n"), HasSubstr("key 'drive.spede'"));
+  EXPECT_LT(Told({"drive"}, std::string(100'000, 'a') + " = 1\n").size(), 2000U);
 }
 
 TEST(WithRevision, TakesItFromEitherPlace) {

@@ -30,17 +30,30 @@ TEST(Toml, FilesOfOtherSystemsAreRead) {
   }
 }
 
+std::string ErrorOf(const std::string& text) {
+  try {
+    (void)ItemsOf(text);
+  } catch (const CLI::ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Toml, AKeyThatASectionHasTwiceIsNamed) {
+  EXPECT_THAT(ErrorOf("name = 'a'\nrate = 5\nname = 'b'\n"), HasSubstr("'name' twice: keep one"));
+  EXPECT_THAT(ErrorOf("[teach]\nrate = 5\nup = 1\n  rate=6 # Hz\n"),
+              HasSubstr("'rate' twice in [teach]"));
+  EXPECT_THAT(ErrorOf("[teach]\nrate = 5\n[replay]\nup = 1\n[teach]\nrate = 5\n"),
+              HasSubstr("'rate' twice in [teach]"));
+  EXPECT_EQ(ErrorOf("rate = 5\n[teach]\nrate = 5\n[replay]\nrate = 5\n#rate = 6\n"), "no error");
+}
+
 TEST(Toml, AFileInUtf16IsRefusedByName) {
   const std::string wide(
       "\xFF\xFEn\0=\0"
       "1\0",
       8);
-  try {
-    (void)ItemsOf(wide);
-    FAIL() << "it was read";
-  } catch (const CLI::ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("UTF-16"));
-  }
+  EXPECT_THAT(ErrorOf(wide), HasSubstr("UTF-16"));
 }
 
 }  // namespace
