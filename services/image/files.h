@@ -36,7 +36,7 @@ namespace trailcast::image {
 [[nodiscard]] Result<void> WritePng(const GrayImage& picture, const std::filesystem::path& file);
 
 // The frames of a recorded run, in order. The run is a folder of pictures (by name, f2 before f10,
-// without hidden files) or a video file.
+// without hidden files, folders and devices) or a video file.
 class FrameSequence {
  public:
   [[nodiscard]] static Result<std::unique_ptr<FrameSequence>> Open(

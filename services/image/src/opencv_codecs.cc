@@ -208,7 +208,6 @@ class FolderSequence final : public FrameSequence {
         left_out_.Read();
         return size_guard_.Check(std::move(*frame), file.string());
       }
-      if (frame.error().code != ErrorCode::kCorrupt) return tl::unexpected(frame.error());
       if (auto few = left_out_.LeaveOut(frame.error()); !few) return tl::unexpected(few.error());
     }
     return std::nullopt;
@@ -319,7 +318,9 @@ Result<std::unique_ptr<FrameSequence>> OpenFolder(const fs::path& folder) {
        entry.increment(error)) {
     // macOS keeps its notes on a file in another file beside it, named "._" and the file's name.
     const bool hidden = entry->path().filename().string().front() == '.';
-    if (IsPicture(entry->path()) && !hidden) files.push_back(entry->path());
+    std::error_code unknown;
+    const bool other = entry->exists(unknown) && !entry->is_regular_file(unknown);
+    if (IsPicture(entry->path()) && !hidden && !other) files.push_back(entry->path());
   }
   if (error) {
     return Fail(ErrorCode::kUnavailable, "cannot list the folder {}: {}", folder.string(),

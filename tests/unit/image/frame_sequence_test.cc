@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <fstream>
@@ -112,6 +113,28 @@ TEST(FrameSequence, PicturesThatCannotBeReadAreLeftOutAndCounted) {
   EXPECT_THAT((*frames)->TakeNews(),
               ElementsAre(AllOf(HasSubstr("3 of 6 pictures"), HasSubstr("0.png"))));
   EXPECT_THAT((*frames)->TakeNews(), IsEmpty());
+}
+
+// Times go by the number of a picture, so what never was one must not count.
+TEST(FrameSequence, WhatIsNoFileIsNoPictureAndALinkThatLeadsNowhereIsALostOne) {
+  const test::TempDir folder;
+  for (const char* name : {"1.png", "6.png"}) Write(Plain(8, 6, 10), folder / name);
+  std::filesystem::create_directory(folder / "2.png");
+  ASSERT_EQ(mkfifo((folder / "3.png").c_str(), 0600), 0);
+  std::filesystem::create_symlink("4.png", folder / "4.png");
+  std::filesystem::create_symlink("/nowhere/5.png", folder / "5.png");
+  auto frames = FrameSequence::Open(folder.path());
+  ASSERT_TRUE(frames);
+  EXPECT_EQ((*frames)->size(), 4);
+  for (const int number : {0, 3}) {
+    const auto frame = (*frames)->Next();
+    ASSERT_TRUE(frame) << frame.error().message;
+    ASSERT_TRUE(*frame);
+    EXPECT_EQ((*frames)->number(), number);
+  }
+  EXPECT_FALSE((*frames)->Next().value());
+  EXPECT_THAT((*frames)->TakeNews(),
+              ElementsAre(AllOf(HasSubstr("2 of 4 pictures"), HasSubstr("4.png"))));
 }
 
 TEST(FrameSequence, ARunOfWhichTooMuchCannotBeReadEndsThere) {
