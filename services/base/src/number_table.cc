@@ -55,9 +55,11 @@ Result<std::vector<NumberRow>> ReadNumbers(const std::filesystem::path& file,
   const std::vector<std::string> names = CsvHeader(stream);
   const auto places = PlacesOf(names, columns, optional);
   if (!places) {
+    const std::string has = fmt::format("{}", fmt::join(names, ","));
     return Fail(ErrorCode::kInvalidArgument,
-                "{}, line 1: expected a header with the columns {}; it has {}", file.string(),
-                fmt::join(columns, ","), Clipped(fmt::format("{}", fmt::join(names, ","))));
+                "{}, line 1: expected a header with the columns {}, separated by commas; it {}",
+                file.string(), fmt::join(columns, ","),
+                has.empty() ? "is empty" : "has " + Clipped(has));
   }
   std::vector<NumberRow> rows;
   std::string line;

@@ -1,8 +1,8 @@
 #include "services/base/text_file.h"
 
+#include <array>
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <string_view>
 #include <system_error>
 
@@ -34,7 +34,12 @@ Result<std::string> ReadTextFile(const std::filesystem::path& file) {
     return Fail(error == ENOENT ? ErrorCode::kNotFound : ErrorCode::kUnavailable,
                 "cannot read {}: {}", file.string(), std::generic_category().message(error));
   }
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  std::string bytes;
+  std::array<char, 1 << 16> part{};
+  do {
+    stream.read(part.data(), part.size());
+    bytes.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+  } while (stream);
   if (stream.bad()) {
     return Fail(ErrorCode::kUnavailable, "cannot read {}: is it a file, and its disk well?",
                 file.string());

@@ -44,12 +44,14 @@ TEST_F(NumberTableTest, OptionalColumnsComeLast) {
 }
 
 TEST_F(NumberTableTest, WhatIsWrongIsToldByLine) {
-  EXPECT_THAT(ErrorOf(""), AllOf(HasSubstr("line 1"), HasSubstr("b,a")));
+  EXPECT_THAT(ErrorOf(""), AllOf(HasSubstr("line 1"), HasSubstr("b,a"), HasSubstr("it is empty")));
   EXPECT_THAT(ErrorOf("a,c\n1,2\n"), AllOf(HasSubstr("line 1"), HasSubstr("it has a,c")));
   EXPECT_THAT(ErrorOf("a,b\n1,2\n1\n"), AllOf(HasSubstr("line 3"), HasSubstr("1 columns")));
   EXPECT_THAT(ErrorOf("a,b\n1,two\n"), AllOf(HasSubstr("line 2"), HasSubstr("'two'")));
   EXPECT_THAT(ErrorOf("a,b\n1,inf\n"), HasSubstr("line 2"));
   EXPECT_EQ(ReadNumbers("/nowhere.csv", {"a"}).error().code, ErrorCode::kNotFound);
+  EXPECT_THAT(ReadNumbers("/usr", {"a"}).error().message,
+              AllOf(HasSubstr("/usr"), HasSubstr("is it a file")));
 }
 
 }  // namespace
