@@ -10,8 +10,8 @@ namespace trailcast::agent {
 // What a session relies on from one observation to the next.
 class FrameCheck {
  public:
-  // kInvalidArgument for an empty frame, one of another size than the first, or odometry that
-  // appears or vanishes midway.
+  // kInvalidArgument for a frame that is empty or too small, one of another size than the first, or
+  // odometry that appears or vanishes midway.
   [[nodiscard]] Result<void> Check(const Observation& observation);
 
  private:

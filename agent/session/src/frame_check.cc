@@ -1,6 +1,13 @@
 #include "agent/session/frame_check.h"
 
+#include <algorithm>
+
 namespace trailcast::agent {
+namespace {
+
+constexpr int kSmallest_px = 8;  // a feature's surroundings have more
+
+}  // namespace
 
 Result<void> FrameCheck::Check(const Observation& observation) {
   const image::GrayImage& image = observation.image;
@@ -8,6 +15,12 @@ Result<void> FrameCheck::Check(const Observation& observation) {
   if (image.empty()) {
     return Fail(ErrorCode::kInvalidArgument, "the camera gave an empty frame at {:.3f} s",
                 Seconds(observation.stamp));
+  }
+  if (std::min(image.width, image.height) < kSmallest_px) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "the camera's pictures are {}x{} pixels, in which nothing can be seen: expected at "
+                "least {} each way, and better 160x120 or more",
+                image.width, image.height, kSmallest_px);
   }
   if (!first_) {
     first_ = {image.width, image.height, odometry};
