@@ -7,6 +7,7 @@
 
 #include "agent/device/odometry_gate.h"
 #include "agent/device/pose_history.h"
+#include "services/base/result.h"
 
 namespace trailcast::agent {
 
@@ -37,5 +38,8 @@ class RecordedPoses {
   std::vector<Jump> jumps_;
   std::size_t taken_ = 0;  // how many of them were returned
 };
+
+// kInvalidArgument means that no base drives as fast as these samples say if they are in metres.
+[[nodiscard]] Result<void> CheckSpeed(const std::vector<RecordedPoses::Sample>& samples);
 
 }  // namespace trailcast::agent

@@ -89,7 +89,7 @@ struct BagDevice::State {
   [[nodiscard]] Result<void> ReadCommands();
   [[nodiscard]] std::optional<motion::VelocityCommand> HeardAt(nanoseconds logged_at) const;
   [[nodiscard]] Result<void> ReadPictureTimes();
-  void ChooseClock();
+  [[nodiscard]] Result<void> ChooseClock();
   [[nodiscard]] SensorTime TimeOf(const RecordedClock::Message& message) const;
   [[nodiscard]] Result<RecordedTimes> TimesOf(const bag::Message& message) const;
   [[nodiscard]] Result<image::GrayImage> Gray(const bag::Message& message);
@@ -231,7 +231,7 @@ Result<void> BagDevice::State::ReadPictureTimes() {
 }
 
 // Stamps count if pictures have them and odometry's are of the same clock.
-void BagDevice::State::ChooseClock() {
+Result<void> BagDevice::State::ChooseClock() {
   by_stamps = has_stamps;
   const auto apart = Apart(pictures_clock, odometry);
   if (by_stamps && apart && std::chrono::abs(*apart) > kRecordersSameClock) {
@@ -245,6 +245,7 @@ void BagDevice::State::ChooseClock() {
     if (!odometry.messages[i].taken) continue;
     samples.push_back({TimeOf(odometry.messages[i]), raw_poses[i]});
   }
+  if (auto slow = CheckSpeed(samples); !slow) return Wrap(slow.error(), topics.odometry->name);
   poses.emplace(samples);
   double length_m = 0.0;
   std::optional<motion::Pose2> before;
@@ -254,6 +255,7 @@ void BagDevice::State::ChooseClock() {
     before = pose;
     driven.push_back({sample.taken, length_m});
   }
+  return {};
 }
 
 SensorTime BagDevice::State::TimeOf(const RecordedClock::Message& message) const {
@@ -369,7 +371,7 @@ Result<std::unique_ptr<BagDevice>> BagDevice::Open(const BagRun& run) {
   if (auto read = state->ReadOdometry(); !read) return tl::unexpected(read.error());
   if (auto read = state->ReadCommands(); !read) return tl::unexpected(read.error());
   if (auto read = state->ReadPictureTimes(); !read) return tl::unexpected(read.error());
-  state->ChooseClock();
+  if (auto chosen = state->ChooseClock(); !chosen) return Wrap(chosen.error(), run.bag.string());
   state->bag->Begin(state->topics.image);
   auto first = state->Next();
   if (!first) return Wrap(first.error(), run.bag.string());

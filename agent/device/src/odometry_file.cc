@@ -69,6 +69,7 @@ Result<OdometryFile> OdometryFile::Read(const std::filesystem::path& file) {
   if (samples.empty()) {
     return Fail(ErrorCode::kInvalidArgument, "{} holds no odometry, only a header", file.string());
   }
+  if (auto slow = CheckSpeed(samples); !slow) return Wrap(slow.error(), file.string());
   return OdometryFile(file, RecordedPoses(samples));
 }
 

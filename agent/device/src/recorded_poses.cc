@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kUsual = 0.9;       // this share of all samples is slower, or has a shorter pause
 constexpr double kTimesUsual = 3.0;  // the most that a base can do
+// A car on a motorway is slower. A robot at a slow walk is faster if its metres are millimetres.
+constexpr double kFastest_mps = 60.0;
 
 double QuantileOf(std::vector<double>& values) {
   const auto at =
@@ -40,6 +42,15 @@ GateOptions GateOf(const std::vector<RecordedPoses::Sample>& samples) {
 }
 
 }  // namespace
+
+Result<void> CheckSpeed(const std::vector<RecordedPoses::Sample>& samples) {
+  const double fastest_mps = GateOf(samples).speed_mps / kTimesUsual;
+  if (fastest_mps <= kFastest_mps) return {};
+  return Fail(ErrorCode::kInvalidArgument,
+              "by this odometry the robot drives at {:.0f} m/s, which no robot does: is it in "
+              "millimetres or centimetres? Expected metres",
+              fastest_mps);
+}
 
 RecordedPoses::RecordedPoses(const std::vector<Sample>& samples) {
   OdometryGate gate(GateOf(samples));

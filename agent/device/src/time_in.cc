@@ -13,6 +13,12 @@ constexpr double kLongest_s = 100.0 * 365.25 * 24.0 * 3600.0;
 constexpr double kLongestPace_s = 5.0;
 constexpr std::size_t kFewRows = 10;
 
+// Values come up to 200 times a second, and at least once in some seconds.
+const char* UnitOf(double pace) {
+  if (pace < 5e3) return "milliseconds";
+  return pace < 5e6 ? "microseconds" : "nanoseconds";
+}
+
 }  // namespace
 
 Result<SensorTime> TimeIn(const NumberRow& row, const std::filesystem::path& file) {
@@ -36,8 +42,8 @@ Result<void> CheckPace(const std::vector<NumberRow>& rows, const std::filesystem
   if (pace_s <= kLongestPace_s) return {};
   return Fail(ErrorCode::kInvalidArgument,
               "{}: by its times most rows are {:g} s apart, which is none of a drive: are they in "
-              "milliseconds? Expected seconds",
-              file.string(), pace_s);
+              "{}? Expected seconds",
+              file.string(), pace_s, UnitOf(pace_s));
 }
 
 }  // namespace trailcast::agent

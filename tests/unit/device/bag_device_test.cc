@@ -81,6 +81,18 @@ TEST_F(BagDeviceTest, PicturesHaveTheirOwnTimesAndTheOdometryOfThen) {
   EXPECT_DOUBLE_EQ(*(*device)->drive_progress(), 1.0);
 }
 
+TEST_F(BagDeviceTest, OdometryInMillimetresIsRefused) {
+  for (int at = 0; at <= 2000; at += 50) {
+    Writer().Put("/odom", kOdometry, kBegin + milliseconds(at) + kDelay,
+                 test::OdometryMessage(kBegin + milliseconds(at), {1.0 * at, 0, 0}));
+  }
+  for (int at = 0; at <= 2000; at += 100) Picture(milliseconds(at), at / 100);
+  const auto device = Open();
+  ASSERT_FALSE(device);
+  EXPECT_THAT(device.error().message,
+              AllOf(HasSubstr("/odom"), HasSubstr("1000 m/s"), HasSubstr("millimetres")));
+}
+
 TEST_F(BagDeviceTest, OdometryThatJumpsIsBridgedAndHowFarItMayHaveDrivenIsTold) {
   const auto odometry = [&](int at, double x_m) {
     Writer().Put("/odom", kOdometry, kBegin + milliseconds(at) + kDelay,

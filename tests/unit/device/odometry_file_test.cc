@@ -87,7 +87,7 @@ TEST_F(OdometryFileTest, WhatIsNoTextInUtf8IsToldSo) {
   EXPECT_LT(ErrorOf(std::string(100'000, 'x')).size(), 400U);
 }
 
-TEST_F(OdometryFileTest, TimesInMillisecondsAreRefused) {
+TEST_F(OdometryFileTest, TimesInOtherUnitsAreRefused) {
   const auto with_times = [](double factor) {
     std::string text = "t_s,x_m,y_m,heading_rad\n";
     for (int i = 0; i < 20; ++i) text += fmt::format("{},{},0,0\n", factor * i / 30, i / 30.0);
@@ -96,6 +96,23 @@ TEST_F(OdometryFileTest, TimesInMillisecondsAreRefused) {
   EXPECT_EQ(ErrorOf(with_times(1.0)), "no error");
   EXPECT_THAT(ErrorOf(with_times(1000.0)),
               AllOf(HasSubstr("33.3333 s apart"), HasSubstr("milliseconds")));
+  EXPECT_THAT(ErrorOf(with_times(1e6)), HasSubstr("microseconds"));
+  EXPECT_THAT(ErrorOf(with_times(1e9)), HasSubstr("nanoseconds"));
+}
+
+TEST_F(OdometryFileTest, LengthsInOtherUnitsAreRefused) {
+  const auto with_lengths = [](double factor) {
+    std::string text = "t_s,x_m,y_m,heading_rad\n";
+    for (int i = 0; i < 90; ++i) {  // it stands for a second, then drives at 1 m/s
+      text += fmt::format("{},0,{},1.57\n", i / 30.0, factor * std::max(0, i - 30) / 30.0);
+    }
+    return text;
+  };
+  EXPECT_EQ(ErrorOf(with_lengths(1.0)), "no error");
+  EXPECT_EQ(ErrorOf(with_lengths(36.0)), "no error") << "a car on a motorway";
+  EXPECT_THAT(ErrorOf(with_lengths(1000.0)),
+              AllOf(HasSubstr("odo.csv"), HasSubstr("1000 m/s"), HasSubstr("millimetres")));
+  EXPECT_THAT(ErrorOf(with_lengths(100.0)), HasSubstr("100 m/s"));
 }
 
 TEST_F(OdometryFileTest, InterpolatesBetweenRows) {
