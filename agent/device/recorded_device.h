@@ -20,7 +20,8 @@ struct RecordedRun {
 };
 
 // A recorded run, read as fast as possible. Pictures that cannot be read are left out and counted
-// (image::FrameSequence); those after them keep their times. Commands have no effect.
+// (image::FrameSequence); those after them keep their times. Pictures larger than anybody looks at
+// may be decoded smaller. Commands have no effect.
 class RecordedDevice final : public RobotDevice {
  public:
   static constexpr double kDefaultRate_hz = 30.0;
@@ -39,7 +40,7 @@ class RecordedDevice final : public RobotDevice {
   [[nodiscard]] int frame() const { return frame_; }
   // Returns "30 frames a second" or "frames by their own times", for people.
   [[nodiscard]] std::string timing() const;
-  [[nodiscard]] int width_px() const { return width_; }
+  [[nodiscard]] int width_px() const { return width_; }  // of the camera's pictures
 
  private:
   RecordedDevice(std::unique_ptr<image::FrameSequence> frames, image::GrayImage first,

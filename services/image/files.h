@@ -24,8 +24,8 @@ namespace trailcast::image {
                                          const std::string& name);
 [[nodiscard]] Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes,
                                            const std::string& name);
-// Decodes the next picture of a run, turned as the run's pictures are, with the bits that they use
-// of 16.
+// Decodes the next picture of a run, turned and reduced as the run's pictures are, with the bits
+// that they use of 16.
 [[nodiscard]] Result<GrayImage> DecodeGray(std::span<const std::uint8_t> bytes,
                                            const std::string& name, PictureRun& run);
 // Encodes with a `quality` of 1 to 100. Every installation can do this. A picture without pixels is
@@ -39,8 +39,9 @@ namespace trailcast::image {
 // without hidden files, folders and devices) or a video file.
 class FrameSequence {
  public:
+  // `enough_px` is PictureRun's, for a folder's pictures. Videos are not reduced.
   [[nodiscard]] static Result<std::unique_ptr<FrameSequence>> Open(
-      const std::filesystem::path& folder_or_video);
+      const std::filesystem::path& folder_or_video, int enough_px = 0);
   virtual ~FrameSequence() = default;
 
   // Returns the next frame, or nothing at the end. It leaves out pictures that cannot be read. Too
@@ -52,6 +53,9 @@ class FrameSequence {
   // Returns lines for people, each once: which pictures were left out, and what the pictures told
   // about themselves.
   [[nodiscard]] virtual std::vector<std::string> TakeNews() = 0;
+  // Returns how many times the width and height of the frame that Next gave last the camera's
+  // picture has.
+  [[nodiscard]] virtual int reduced() const = 0;
   // Returns the number of frames if it is known beforehand.
   [[nodiscard]] virtual std::optional<int> size() const = 0;
   // Returns the frames a second if the recording says so, as videos do.

@@ -15,6 +15,15 @@ namespace trailcast::image {
 // never makes it look different from the one before. A single picture is a run of one.
 class PictureRun {
  public:
+  // Whoever looks at the pictures reduces their longer side to `enough_px`. A JPEG is decoded to a
+  // half, a quarter or an eighth of its size as long as that much is left. With 0 none is reduced.
+  explicit PictureRun(int enough_px = 0) : enough_px_(enough_px) {}
+
+  // Returns how many times smaller a JPEG with such a longer side is decoded: 1, 2, 4 or 8.
+  [[nodiscard]] int Reduce(std::uint64_t longer_side_px);
+  // Returns how many times the decoded width and height the camera's last picture has.
+  [[nodiscard]] int reduced() const { return reduced_; }
+
   // Returns how the next picture is to be turned, 1 to 8 as Exif numbers it (1: not at all). The
   // first picture decides, because a robot's camera is fixed, while phones write into each picture
   // how they believe to be held and change their mind on the way.
@@ -28,6 +37,8 @@ class PictureRun {
   [[nodiscard]] std::vector<std::string> TakeNews() { return std::exchange(news_, {}); }
 
  private:
+  int enough_px_;
+  int reduced_ = 1;
   std::optional<int> orientation_;
   bool others_told_ = false;
   int bits_ = 0;

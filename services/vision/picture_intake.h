@@ -16,6 +16,8 @@ struct IntakeOptions {
   // finder are in pixels and fit pictures of 320 to 640 pixels.
   int longest_side_px = 640;
 };
+// The longer side that a default intake looks at. Readers may reduce pictures as far as that.
+inline constexpr int kEnoughPx = IntakeOptions{}.longest_side_px;
 
 // Refuses with kInvalidArgument a roll of more than 20 degrees off a quarter turn, because the
 // upright rectangle in such a picture is too small.

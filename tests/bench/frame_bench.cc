@@ -16,11 +16,13 @@
 #include "agent/session/replay_session.h"
 #include "agent/session/teach_session.h"
 #include "services/base/median.h"
+#include "services/image/files.h"
 #include "services/lab/sim/core/judge.h"
 #include "services/lab/sim/core/path_follow_driver.h"
 #include "services/lab/sim/core/simulated_robot.h"
 #include "services/lab/sim/places/place.h"
 #include "services/program/heap.h"
+#include "services/vision/picture_intake.h"
 #include "services/vision/src/frame.h"
 #include "tests/bench/must.h"
 
@@ -35,7 +37,7 @@ constexpr double kRate_hz = 30.0;
 using Drive = std::vector<agent::Observation>;
 
 // Along a built-in place's path; `seed` draws the wheels' slip, the exposure and the noise.
-Drive DriveWith(int width, int height, std::uint64_t seed) {
+Drive DriveWith(int width, int height, std::uint64_t seed, std::size_t frames = kFrames) {
   sim::PlaceOptions where;
   where.world = "desks";
   const sim::Place place = Must(sim::OpenPlace(where));
@@ -51,7 +53,7 @@ Drive DriveWith(int width, int height, std::uint64_t seed) {
   sim::PathFollowDriver driver(place.path.points);
   motion::VelocityCommand command;
   Drive drive;
-  while (drive.size() < kFrames && !driver.arrived()) {
+  while (drive.size() < frames && !driver.arrived()) {
     sim::Observation seen = robot->Step(command);
     drive.push_back({seen.stamp, std::move(seen.image), seen.odometry});
     command = driver.Command(judge.true_pose());
@@ -209,6 +211,40 @@ BENCHMARK(Frame)
     ->Args({1280, 720})
     ->Iterations(2)
     ->Unit(benchmark::kSecond);
+
+// This compares two ways to bring a camera's JPEG to the size that is looked at: the whole picture
+// is decoded and then reduced, or it is reduced while it is decoded.
+void Jpeg(benchmark::State& state) {
+  constexpr int kQuality = 90;
+  constexpr std::size_t kPictures = 20;
+  const Drive drive =
+      DriveWith(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), 1, kPictures);
+  std::vector<std::vector<std::uint8_t>> jpegs;
+  std::size_t bytes = 0;
+  for (const agent::Observation& each : drive) {
+    jpegs.push_back(Must(image::EncodeJpeg(each.image, kQuality)));
+    bytes += jpegs.back().size();
+  }
+  image::PictureRun whole_run;
+  image::PictureRun reduced_run(vision::kEnoughPx);
+  vision::PictureIntake intake;
+  Cost whole;
+  Cost reduced;
+  const auto read = [&](const std::vector<std::uint8_t>& jpeg, image::PictureRun& run) {
+    const image::GrayImage picture = Must(image::DecodeGray(jpeg, "it", run));
+    benchmark::DoNotOptimize(intake.Reduce(picture).pixels.data());
+  };
+  for ([[maybe_unused]] auto _ : state) {
+    for (const auto& jpeg : jpegs) {
+      whole.Add([&] { read(jpeg, whole_run); });
+      reduced.Add([&] { read(jpeg, reduced_run); });
+    }
+  }
+  state.counters["kB"] = 1e-3 * static_cast<double>(bytes) / static_cast<double>(jpegs.size());
+  state.counters["whole_ms"] = whole.median_ms();
+  state.counters["reduced_ms"] = reduced.median_ms();
+}
+BENCHMARK(Jpeg)->Args({1280, 720})->Args({1920, 1080})->Iterations(5)->Unit(benchmark::kSecond);
 
 }  // namespace
 }  // namespace trailcast

@@ -12,6 +12,7 @@
 #include "agent/device/src/bag_topics.h"
 #include "services/bag/ros_messages.h"
 #include "services/image/files.h"
+#include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
 namespace {
@@ -109,7 +110,7 @@ struct BagDevice::State {
   std::vector<Driven> driven;
   std::vector<Commanded> commands;
   std::optional<RecordedPoses> poses;
-  image::PictureRun run;
+  image::PictureRun run{vision::kEnoughPx};
   bool has_stamps = false;
   RecordedClock pictures_clock;
   std::vector<std::optional<std::size_t>>
@@ -379,8 +380,8 @@ Result<std::unique_ptr<BagDevice>> BagDevice::Open(const BagRun& run) {
     return Fail(ErrorCode::kInvalidArgument, "{}: {} gives no picture; left out are {}",
                 run.bag.string(), state->topics.image.name, state->left_out.Text());
   }
-  state->width_px = (*first)->image.width;
-  state->height_px = (*first)->image.height;
+  state->width_px = state->run.reduced() * (*first)->image.width;
+  state->height_px = state->run.reduced() * (*first)->image.height;
   state->first = std::move(*first);
   return std::unique_ptr<BagDevice>(new BagDevice(std::move(state)));
 }

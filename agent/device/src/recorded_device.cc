@@ -7,14 +7,15 @@
 
 #include "agent/device/src/time_in.h"
 #include "services/base/number_table.h"
+#include "services/vision/picture_intake.h"
 
 namespace trailcast::agent {
 
 RecordedDevice::RecordedDevice(std::unique_ptr<image::FrameSequence> frames, image::GrayImage first,
                                std::optional<OdometryFile> odometry, double rate_hz)
     : frames_(std::move(frames)),
-      width_(first.width),
-      height_(first.height),
+      width_(frames_->reduced() * first.width),
+      height_(frames_->reduced() * first.height),
       odometry_(std::move(odometry)),
       rate_hz_(rate_hz) {
   first_ = std::move(first);
@@ -52,7 +53,7 @@ Result<std::unique_ptr<RecordedDevice>> RecordedDevice::Open(const RecordedRun& 
                 "{} is a recording of topics: give it with --bag instead of --frames",
                 run.frames.string());
   }
-  auto frames = image::FrameSequence::Open(run.frames);
+  auto frames = image::FrameSequence::Open(run.frames, vision::kEnoughPx);
   if (!frames) return tl::unexpected(frames.error());
   auto first = (*frames)->Next();
   if (!first) return tl::unexpected(first.error());

@@ -250,8 +250,8 @@ Result<std::optional<Observation>> Ros2Device::Next() {
     if (over) return std::nullopt;
     if (gray) {
       observation.image = std::move(*gray);
-      s.width_px = observation.image.width;
-      s.height_px = observation.image.height;
+      s.width_px = s.pictures.reduced() * observation.image.width;
+      s.height_px = s.pictures.reduced() * observation.image.height;
       return observation;
     }
     if (gray.error().code != ErrorCode::kCorrupt) return tl::unexpected(gray.error());

@@ -19,6 +19,7 @@
 #include "agent/device/src/still_picture_watch.h"
 #include "agent/device/src/still_watch.h"
 #include "services/motion/battery.h"
+#include "services/vision/picture_intake.h"
 
 // This is the state that the two threads of a ROS 2 robot's device share: the one that hears the
 // robot and stops it (ros2_hearing.cc), and the one that drives it (ros2_device.cc).
@@ -109,9 +110,9 @@ struct Ros2Device::State {
   std::optional<SensorTime> given;  // the last frame that Next took, by its stamp
   std::optional<SensorTime> given_before;
   std::chrono::steady_clock::time_point given_came_at;
-  bool answered = true;        // with a command
-  image::PictureRun pictures;  // for the driving thread alone
-  int unreadable = 0;          // pictures that were left out
+  bool answered = true;                           // with a command
+  image::PictureRun pictures{vision::kEnoughPx};  // for the driving thread alone
+  int unreadable = 0;                             // pictures that were left out
   std::string why_unreadable;
   motion::VelocityCommand told;  // the base's present command
   bool drove = false;            // an earlier command moved it

@@ -30,7 +30,7 @@ class Codecs {
   [[nodiscard]] virtual Result<void> WritePng(const GrayImage& picture,
                                               const std::filesystem::path& file) const = 0;
   [[nodiscard]] virtual Result<std::unique_ptr<FrameSequence>> OpenFrames(
-      const std::filesystem::path& folder_or_video) const = 0;
+      const std::filesystem::path& folder_or_video, int enough_px) const = 0;
 };
 
 inline constexpr const char* kCodecsLibrary = "libtrailcast_codecs.so";

@@ -64,9 +64,10 @@ Result<void> WritePng(const GrayImage& picture, const fs::path& file) {
   return Loaded().and_then([&](const Codecs* codecs) { return codecs->WritePng(picture, file); });
 }
 
-Result<std::unique_ptr<FrameSequence>> FrameSequence::Open(const fs::path& folder_or_video) {
+Result<std::unique_ptr<FrameSequence>> FrameSequence::Open(const fs::path& folder_or_video,
+                                                           int enough_px) {
   return Loaded().and_then(
-      [&](const Codecs* codecs) { return codecs->OpenFrames(folder_or_video); });
+      [&](const Codecs* codecs) { return codecs->OpenFrames(folder_or_video, enough_px); });
 }
 
 }  // namespace trailcast::image

@@ -34,10 +34,14 @@ std::uint64_t BigEndian(std::span<const std::uint8_t> bytes) {
   return std::uint64_t{bytes[0]} << 8U | bytes[1];
 }
 
-// A frame's header begins with the sample precision, then height and width.
-std::uint64_t PixelsOf(std::span<const std::uint8_t> frame) {
-  if (frame.size() < 5) return 0;
-  return BigEndian(frame.subspan(1)) * BigEndian(frame.subspan(3));
+// A frame's header begins with the sample precision, then height and width. The largest frame of a
+// file that has several counts.
+void TakeFrame(std::span<const std::uint8_t> frame, JpegLayout& layout) {
+  if (frame.size() < 5) return;
+  const std::uint64_t height = BigEndian(frame.subspan(1));
+  const std::uint64_t width = BigEndian(frame.subspan(3));
+  layout.pixels = std::max(layout.pixels, width * height);
+  layout.longer_side_px = std::max({layout.longer_side_px, width, height});
 }
 
 // Returns the next marker and leaves in `left` what follows it; 0 if there is none.
@@ -71,7 +75,7 @@ JpegLayout ReadJpegLayout(std::span<const std::uint8_t> bytes) {
     const auto length = static_cast<std::size_t>(BigEndian(left));
     if (length < kLengthBytes || length > left.size()) break;
     const auto content = left.subspan(kLengthBytes, length - kLengthBytes);
-    if (IsFrame(marker)) layout.pixels = std::max(layout.pixels, PixelsOf(content));
+    if (IsFrame(marker)) TakeFrame(content, layout);
     if (marker == kScan) ++layout.scans;
     if (marker == kExif) layout.orientation = ExifOrientation(content).value_or(layout.orientation);
     left = left.subspan(length);

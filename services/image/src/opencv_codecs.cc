@@ -99,10 +99,18 @@ cv::Mat Turned(const cv::Mat& picture, int orientation) {
   return turned;
 }
 
+// Returns the flag that has libjpeg make fewer pixels of each of a picture's blocks.
+int ReducedFlag(int times) {
+  if (times == 2) return cv::IMREAD_REDUCED_GRAYSCALE_2;
+  if (times == 4) return cv::IMREAD_REDUCED_GRAYSCALE_4;
+  return times == 8 ? cv::IMREAD_REDUCED_GRAYSCALE_8 : 0;
+}
+
 // Pictures of 16 bits a pixel keep the bits that the run uses.
 Result<cv::Mat> DecodeGrayBytes(const std::vector<std::uint8_t>& bytes, const std::string& name,
                                 PictureRun& run) {
-  auto picture = DecodeBytes(bytes, name, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+  const int reduced = ReducedFlag(run.Reduce(ReadJpegLayout(bytes).longer_side_px));
+  auto picture = DecodeBytes(bytes, name, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | reduced);
   if (picture && picture->depth() != CV_8U && picture->depth() != CV_16U) {
     picture = DecodeBytes(bytes, name, cv::IMREAD_GRAYSCALE);
   }
@@ -172,20 +180,23 @@ Result<GrayImage> ReadGrayOf(const fs::path& file, PictureRun& run) {
       .map(FromMat<GrayImage>);
 }
 
-// Refuses any size but the first frame's.
+// Refuses any size but the first frame's. A frame that was decoded `reduced` times smaller counts
+// as large as it was.
 class SizeGuard {
  public:
-  Result<GrayImage> Check(GrayImage frame, const std::string& name) {
+  Result<GrayImage> Check(GrayImage frame, int reduced, const std::string& name) {
+    const int width = reduced * frame.width;
+    const int height = reduced * frame.height;
     if (width_ == 0) {
-      width_ = frame.width;
-      height_ = frame.height;
+      width_ = width;
+      height_ = height;
     }
-    if (frame.width != width_ || frame.height != height_) {
+    if (width != width_ || height != height_) {
       return Fail(
           ErrorCode::kInvalidArgument,
           "{} is {}x{} pixels, but the run's first frame is {}x{}: all frames of a run must "
           "be of one size",
-          name, frame.width, frame.height, width_, height_);
+          name, width, height, width_, height_);
     }
     return frame;
   }
@@ -197,7 +208,8 @@ class SizeGuard {
 
 class FolderSequence final : public FrameSequence {
  public:
-  explicit FolderSequence(std::vector<fs::path> files) : files_(std::move(files)) {}
+  FolderSequence(std::vector<fs::path> files, int enough_px)
+      : files_(std::move(files)), run_(enough_px) {}
 
   Result<std::optional<GrayImage>> Next() override {
     while (next_ < files_.size()) {
@@ -206,7 +218,7 @@ class FolderSequence final : public FrameSequence {
       auto frame = ReadGrayOf(file, run_);
       if (frame) {
         left_out_.Read();
-        return size_guard_.Check(std::move(*frame), file.string());
+        return size_guard_.Check(std::move(*frame), run_.reduced(), file.string());
       }
       if (auto few = left_out_.LeaveOut(frame.error()); !few) return tl::unexpected(few.error());
     }
@@ -220,6 +232,7 @@ class FolderSequence final : public FrameSequence {
     }
     return news;
   }
+  int reduced() const override { return run_.reduced(); }
   std::optional<int> size() const override { return static_cast<int>(files_.size()); }
   std::optional<double> rate_hz() const override { return std::nullopt; }
 
@@ -250,10 +263,11 @@ class VideoSequence final : public FrameSequence {
     if (frame.channels() == 3) cv::cvtColor(frame, gray, cv::COLOR_BGR2GRAY);
     const std::string name = fmt::format("frame {} of {}", read_, file_.string());
     ++read_;
-    return size_guard_.Check(FromMat<GrayImage>(gray), name);
+    return size_guard_.Check(FromMat<GrayImage>(gray), 1, name);
   }
   int number() const override { return read_ - 1; }
   std::vector<std::string> TakeNews() override { return {}; }
+  int reduced() const override { return 1; }
   std::optional<int> size() const override {
     return announced_frames_ > 0 ? std::optional(announced_frames_) : std::nullopt;
   }
@@ -311,7 +325,7 @@ bool ComesBefore(const std::string& a, const std::string& b) {
   return a < b;
 }
 
-Result<std::unique_ptr<FrameSequence>> OpenFolder(const fs::path& folder) {
+Result<std::unique_ptr<FrameSequence>> OpenFolder(const fs::path& folder, int enough_px) {
   std::error_code error;
   std::vector<fs::path> files;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
@@ -335,7 +349,7 @@ Result<std::unique_ptr<FrameSequence>> OpenFolder(const fs::path& folder) {
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return ComesBefore(a.filename().string(), b.filename().string());
   });
-  return std::make_unique<FolderSequence>(std::move(files));
+  return std::make_unique<FolderSequence>(std::move(files), enough_px);
 }
 
 Result<std::unique_ptr<FrameSequence>> OpenVideo(const fs::path& file) {
@@ -389,15 +403,15 @@ class OpenCvCodecs final : public Codecs {
                                       const fs::path& file) const override {
     return Write(View(picture, CV_8UC1), file);
   }
-  [[nodiscard]] Result<std::unique_ptr<FrameSequence>> OpenFrames(
-      const fs::path& folder_or_video) const override {
+  [[nodiscard]] Result<std::unique_ptr<FrameSequence>> OpenFrames(const fs::path& folder_or_video,
+                                                                  int enough_px) const override {
     std::error_code error;
     if (!fs::exists(folder_or_video, error)) {
       return Fail(ErrorCode::kNotFound,
                   "no recorded run at {}: expected a folder of pictures or a video file",
                   folder_or_video.string());
     }
-    if (fs::is_directory(folder_or_video, error)) return OpenFolder(folder_or_video);
+    if (fs::is_directory(folder_or_video, error)) return OpenFolder(folder_or_video, enough_px);
     if (IsPicture(folder_or_video)) {
       return Fail(ErrorCode::kInvalidArgument,
                   "{} is a single picture; give the folder it is in, or a video file",

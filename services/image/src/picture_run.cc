@@ -7,6 +7,17 @@
 
 namespace trailcast::image {
 
+int PictureRun::Reduce(std::uint64_t longer_side_px) {
+  constexpr int kMost = 8;
+  reduced_ = 1;
+  if (enough_px_ <= 0) return reduced_;
+  const auto enough_px = static_cast<std::uint64_t>(enough_px_);
+  while (reduced_ < kMost && longer_side_px >= 2 * enough_px * static_cast<unsigned>(reduced_)) {
+    reduced_ *= 2;
+  }
+  return reduced_;
+}
+
 int PictureRun::Orientation(std::span<const std::uint8_t> picture) {
   const JpegLayout layout = ReadJpegLayout(picture);
   if (!layout.whole) return orientation_.value_or(1);

@@ -196,6 +196,69 @@ TEST(DecodeGray, APictureIsTurnedAsItSays) {
   }
 }
 
+// Returns a picture that grows brighter to the right and downwards.
+GrayImage Slope(int width, int height) {
+  GrayImage slope = Plain(width, height, 0);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      slope.pixels[PixelIndex(x, y, width)] =
+          static_cast<std::uint8_t>(160 * x / width + 80 * y / height);
+    }
+  }
+  return slope;
+}
+
+TEST(DecodeGray, ALargeJpegIsReducedAsLongAsEnoughOfItIsLeft) {
+  struct Case {
+    int width, height, enough_px, reduced;
+  };
+  for (const Case& each : std::vector<Case>{{320, 200, 0, 1},
+                                            {320, 200, 161, 1},
+                                            {320, 200, 160, 2},
+                                            {200, 320, 160, 2},
+                                            {321, 201, 160, 2},
+                                            {320, 200, 81, 2},
+                                            {320, 200, 80, 4},
+                                            {320, 200, 1, 8}}) {
+    const GrayImage whole = Slope(each.width, each.height);
+    PictureRun run(each.enough_px);
+    const auto read = DecodeGray(EncodeJpeg(whole, 95).value(), "it", run);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(run.reduced(), each.reduced) << each.enough_px;
+    ASSERT_EQ(read->width, (each.width + each.reduced - 1) / each.reduced) << each.enough_px;
+    ASSERT_EQ(read->height, (each.height + each.reduced - 1) / each.reduced) << each.enough_px;
+    for (const auto& [x, y] : {std::pair(1, 1), {read->width / 2, read->height / 3}}) {
+      const int middle = each.reduced / 2;
+      EXPECT_NEAR(read->at(x, y), whole.at(each.reduced * x + middle, each.reduced * y + middle), 4)
+          << each.enough_px;
+    }
+  }
+}
+
+TEST(DecodeGray, OfAReducedRunOtherFormatsComeWhole) {
+  const test::TempDir folder;
+  Write(Slope(320, 200), folder / "1.png");
+  auto frames = FrameSequence::Open(folder.path(), 80);
+  ASSERT_TRUE(frames) << frames.error().message;
+  EXPECT_EQ((*frames)->Next().value()->width, 320);
+  EXPECT_EQ((*frames)->reduced(), 1);
+}
+
+TEST(FrameSequence, APictureOfAnotherSizeIsOneHoweverItIsReduced) {
+  const test::TempDir folder;
+  for (const auto& [name, width] : {std::pair("1.jpg", 160), {"2.jpg", 320}}) {
+    const auto jpeg = EncodeJpeg(Slope(width, width / 2), 95).value();
+    std::ofstream(folder / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(jpeg.data()), std::ssize(jpeg));
+  }
+  auto frames = FrameSequence::Open(folder.path(), 160);
+  ASSERT_TRUE(frames);
+  ASSERT_TRUE((*frames)->Next());
+  const auto odd = (*frames)->Next();
+  ASSERT_FALSE(odd);
+  EXPECT_THAT(odd.error().message, AllOf(HasSubstr("320x160"), HasSubstr("160x80")));
+}
+
 TEST(FrameSequence, AllPicturesOfARunAreTurnedAsTheFirst) {
   for (const int first : {1, 3}) {
     const test::TempDir folder;

@@ -24,9 +24,10 @@ class OrderedFrames {
  public:
   static constexpr std::size_t kMostBytes = std::size_t{1} << 30U;  // kept in memory
 
-  // kInvalidArgument means that more would have to be kept.
+  // `enough_px` is that of image::PictureRun. kInvalidArgument means that more would have to be
+  // kept.
   [[nodiscard]] static Result<OrderedFrames> Open(const std::filesystem::path& recording,
-                                                  std::vector<Shown> order);
+                                                  std::vector<Shown> order, int enough_px = 0);
 
   // Returns the next frame, or nothing at the end of the order. Errors are FrameSequence's.
   [[nodiscard]] Result<std::optional<image::GrayImage>> Next();

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "services/lab/trial/recording/frame_order.h"
+#include "services/vision/picture_intake.h"
 
 namespace trailcast::trial {
 
@@ -16,7 +17,7 @@ Result<RecordingView> RecordingView::Open(const agent::RecordedRun& run,
   if (!count) return tl::unexpected(count.error());
   auto order = OrderOf(disturbance, *count, seed);
   if (!order) return Wrap(order.error(), run.frames.string());
-  auto frames = OrderedFrames::Open(run.frames, std::move(*order));
+  auto frames = OrderedFrames::Open(run.frames, std::move(*order), vision::kEnoughPx);
   if (!frames) return tl::unexpected(frames.error());
   RecordingView view(std::move(*frames), PictureChanger(disturbance, seed));
   view.rate_hz_ = (*device)->rate_hz();

@@ -21,8 +21,8 @@ Result<int> CountFrames(const std::filesystem::path& recording) {
 }
 
 Result<OrderedFrames> OrderedFrames::Open(const std::filesystem::path& recording,
-                                          std::vector<Shown> order) {
-  auto frames = image::FrameSequence::Open(recording);
+                                          std::vector<Shown> order, int enough_px) {
+  auto frames = image::FrameSequence::Open(recording, enough_px);
   if (!frames) return tl::unexpected(frames.error());
   const bool forward = GoesForward(order);
   OrderedFrames ordered(std::move(*frames), std::move(order));
