@@ -13,29 +13,31 @@
 
 namespace trailcast::exchange {
 
-// Which segments were asked for and are to be sent. What several agents ask for is sent once, by
-// multicast: together with what others ask for within a short window, and not again for a while
-// after, in which it is on its way to all of them. Who did not get it asks once more, later.
+// This holds the segments that were asked for and are still to be sent. A segment that several
+// agents ask for is sent once, by multicast: a short window collects their requests, and a segment
+// that was just sent is on its way to all of them, so it is not sent again for a while. An agent
+// that did not get it asks once more, later.
 class AnswerQueue {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   struct Options {
-    // The first who ask for a route after a pause are waited for together.
+    // A short wait collects the first requests for a route after a pause.
     std::chrono::milliseconds window{10};
-    // Below WantList's retry_after, so that whoever asks again is answered.
+    // This is below WantList's retry_after, so that an agent that asks again is answered.
     std::chrono::milliseconds on_its_way{800};
     // A link that took nothing is tried again after this.
     std::chrono::milliseconds again_after{50};
-    // Segments that are remembered, of all routes: 15 MB. What is asked for beyond has to be asked
-    // for again.
+    // The queue remembers at most so many segments of all routes, 15 MB. An agent has to ask again
+    // for those beyond.
     std::size_t most{100'000};
   };
 
   explicit AnswerQueue(Options options) : options_(options) {}
 
   void Ask(const route::RouteKey& key, std::span<const SegmentIndex> indices, Time now);
-  // It was due and could not be handed over: asked for as before, and not on its way.
+  // Puts back a segment that was due and could not be handed over: it is asked for as before, and
+  // not on its way.
   void PutBack(const route::RouteKey& key, SegmentIndex index, Time now);
 
   using ReadPiece =
@@ -46,16 +48,16 @@ class AnswerQueue {
     Error error;
   };
   struct Answers {
-    std::vector<route::SegmentPiece> pieces;  // of each route, lowest index first
-    std::vector<Unreadable> unreadable;       // asked for, but `read` failed: not sent
+    std::vector<route::SegmentPiece> pieces;  // of each route, the lowest index first
+    std::vector<Unreadable> unreadable;       // `read` failed for these, so they are not sent
   };
-  // What is to be sent now, from the routes whose window has passed: up to `max_bytes`, and the
-  // rest the next time, when another route is the first.
+  // Returns what has to be sent now, at most `max_bytes`, from the routes whose window has passed.
+  // The next call returns the rest and begins with another route.
   [[nodiscard]] Answers Due(Time now, std::size_t max_bytes, const ReadPiece& read);
 
-  // Nothing is to be sent, now or soon.
+  // Tells that nothing has to be sent, now or soon.
   [[nodiscard]] bool empty() const;
-  // Due would return something.
+  // Tells that Due would return something.
   [[nodiscard]] bool IsDue(Time now) const;
 
  private:
@@ -74,7 +76,7 @@ class AnswerQueue {
   Options options_;
   std::map<route::RouteKey, Asked> asked_;
   std::size_t remembered_ = 0;  // segments in asked_
-  Time cleared_at_{};           // of what is no longer on its way
+  Time cleared_at_{};           // when segments that are no longer on their way were last removed
   route::RouteKey served_last_;
 };
 

@@ -8,10 +8,10 @@
 
 namespace trailcast::exchange {
 
-// What is accepted from a peer, and therefore published, beyond what a route is (route/bounds.h).
-// Also in docs/reference/protocol.md.
+// These bounds hold for what is accepted from a peer, and therefore for what is published, beside
+// those of a route (route/bounds.h). docs/reference/protocol.md lists them too.
 inline constexpr std::size_t kMaxPieceBytes = route::kMaxSegmentBytes;
-inline constexpr std::size_t kMaxPiecesPerBatch = 4096;  // what one Publish may carry
+inline constexpr std::size_t kMaxPiecesPerBatch = 4096;  // one Publish carries no more
 inline constexpr std::size_t kMaxIndicesPerRequest = 1024;
 inline constexpr std::size_t kMaxSegmentsPerReceipt = 1024;
 inline constexpr std::size_t kMaxRoutesPerReply = 1000;
@@ -21,8 +21,8 @@ inline constexpr std::size_t kMaxHoldingsPerReply = 1024;
 inline constexpr std::size_t kMaxPlacesPerReply = 16;  // by view
 inline constexpr std::size_t kMaxClaimedNames = 64;    // told at once
 inline constexpr std::size_t kMaxFollowersTold = 1024;
-inline constexpr std::size_t kMaxStretchesTold = 256;  // how they were followed, at once
-inline constexpr std::size_t kMaxTimesPassed = 1000;   // each of those
+inline constexpr std::size_t kMaxStretchesTold = 256;  // sections of a route, told at once
+inline constexpr std::size_t kMaxTimesPassed = 1000;   // of each of these sections
 inline constexpr std::size_t kMaxCursorBytes = 256;
 inline constexpr std::size_t kMaxMissionsPerReply = 100;
 inline constexpr std::size_t kMaxAnswersTold = 64;     // of each command
@@ -37,11 +37,11 @@ inline constexpr double kMaxLate_ms = 1e15;           // clocks may be anywhere
 inline constexpr std::size_t kMaxEntriesTold = 4096;  // revisions in a summary of a store
 inline constexpr std::size_t kMaxLineBytes = 512;     // details, errors, reasons
 
-// kInvalidArgument naming the field, what it holds and what is accepted. The digest of a piece is
-// not checked against its bytes here (route::CheckDigest), only that there is one.
+// Returns kInvalidArgument with the field, its value and what is accepted. It checks that a piece
+// has a digest, but not that the digest matches the bytes (route::CheckDigest does).
 [[nodiscard]] Result<void> CheckBounds(const Message& message);
 
-// The same of a catalog query and of an edit, which a server judges when it answers.
+// These check a catalog query and an edit, which a server judges when it answers.
 [[nodiscard]] Result<void> CheckQuery(const route::RouteQuery& query);
 [[nodiscard]] Result<void> CheckEdit(const route::RouteEdit& edit);
 

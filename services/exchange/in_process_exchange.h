@@ -6,10 +6,10 @@
 
 namespace trailcast::exchange {
 
-// The bus inside one process: what tests and lockstep simulations use in place of DDS, with the
-// same semantics (bounds, batches split, latest per key for late joiners, AgentGone). Exchanges may
-// live on different threads; each has one owner. The bus stays alive as long as one of its
-// exchanges.
+// This is a bus inside one process, which tests and lockstep simulations use in place of DDS. Its
+// semantics are the same: bounds, split batches, the latest sample per key for late joiners, and
+// AgentGone. Exchanges may live on different threads; each has one owner. The bus lives as long as
+// one of its exchanges.
 class InProcessBus {
  public:
   InProcessBus();

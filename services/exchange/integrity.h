@@ -8,8 +8,8 @@
 
 namespace trailcast::exchange {
 
-// How bytes are told from damaged ones: route::CheckDigest and route::ManifestDigest, given by the
-// owner so that the protocol can be tested without hashing.
+// These functions tell whether bytes are damaged. The owner passes route::CheckDigest and
+// route::ManifestDigest, so that tests of the protocol need no hashing.
 struct Integrity {
   std::function<Result<void>(const route::SegmentPiece&)> check_piece;
   std::function<route::Digest(std::span<const route::Digest>)> manifest;

@@ -13,12 +13,13 @@
 
 namespace trailcast::exchange {
 
-// What a server knows of one route: what is durable, what was announced, what follows from the two.
+// This is a server's knowledge of one route: what is durable, what was announced, and what follows
+// from the two.
 class KeptRoute {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  // As found in the store: `stored` may be empty when segments came before their route.
+  // Takes what was found in the store. `stored` may be empty when segments came before their route.
   KeptRoute(std::optional<route::RouteInfo> stored, const std::vector<store::HeldSegment>& held,
             WantList::Options want);
 
@@ -26,35 +27,37 @@ class KeptRoute {
     kNews,      // more is known than before
     kOldNews,   // nothing new
     kConflict,  // contradicts a complete route, or completes one with fewer segments than stored
-    kDeleted,   // the revision was deleted: nothing of it is wanted
+    kDeleted,   // the revision was deleted, so nothing of it is wanted
   };
-  // Somebody announces the route. Segments that are not held are wanted from `ask_at` on.
+  // Notes that an agent announces the route. Segments that are not held are wanted from `ask_at`
+  // on.
   ClaimResult Claim(const route::RouteInfo& info, Time ask_at);
-  // Somebody announced it before.
+  // Tells that some agent has announced it before.
   [[nodiscard]] bool heard() const { return heard_; }
 
   void MarkHeld(SegmentIndex index, const route::Digest& digest, Time now);
-  // Its bytes on the disk are not what they were: no longer held, and asked for from now on.
+  // Notes that the segment's bytes on the disk are damaged. It is no longer held, and is asked for
+  // from now on.
   void MarkDamaged(SegmentIndex index, Time now);
   [[nodiscard]] bool Holds(SegmentIndex index) const { return held_.contains(index); }
   [[nodiscard]] bool IsDamaged(SegmentIndex index) const { return damaged_.contains(index); }
   [[nodiscard]] std::vector<SegmentIndex> Damaged() const;
-  // What the segment is, or was before it was damaged.
+  // Returns the segment's digest, which is known of a damaged one too.
   [[nodiscard]] std::optional<route::Digest> DigestOf(SegmentIndex index) const;
 
-  // The route as far as it is durable: the claim if all of it is held, else the durable prefix with
-  // length and bytes in proportion. Empty if nothing can be said, or nothing is held yet.
+  // Returns the route as far as it is durable: the claim if all of it is held, else the durable
+  // prefix with length and bytes in proportion. It is empty if nothing is known or held yet.
   [[nodiscard]] std::optional<route::RouteInfo> DurableInfo() const;
-  // The store has `info`, its labels included, and perhaps more of it than was claimed here; with a
-  // tombstone nothing is held any more.
+  // Notes that the store has `info` with its labels, and perhaps more of the route than was claimed
+  // here. With a tombstone nothing is held any more.
   void MarkStored(const route::RouteInfo& info);
-  // The store has this, perhaps from another process. Segments that nobody stored are wanted from
-  // `ask_at` on. True if anything of it is new here.
+  // Takes up what the store has, perhaps from another process. Missing segments are wanted from
+  // `ask_at` on. Returns true if anything of it is new here.
   [[nodiscard]] bool TakeUp(const std::optional<route::RouteInfo>& stored,
                             const std::vector<store::HeldSegment>& held, Time now, Time ask_at);
-  // The claim does not fit the segments: forget it, and never announce it.
+  // Forgets a claim that does not fit the segments, so that it is never announced.
   void ForgetClaim();
-  // Who taught it, as far as that is known.
+  // Returns the agent that taught the route, if that is known.
   [[nodiscard]] std::optional<AgentId> scout() const;
   [[nodiscard]] const std::optional<route::RouteInfo>& stored() const { return stored_; }
   [[nodiscard]] bool complete() const {
@@ -64,22 +67,22 @@ class KeptRoute {
   [[nodiscard]] bool deleted() const {
     return stored_ && stored_->standing == route::Standing::kDeleted;
   }
-  // The store has no room for the revision, or has again.
+  // These note that the store has no room for the revision, or has room again.
   void MarkFull(const std::string& reason) { full_ = reason; }
   void MarkRoom() {
     if (!over_until_) full_.clear();
   }
-  // Its scout is over a quota, and is told so until then.
+  // Notes that its scout is over a quota. Receipts tell the scout so until `until`.
   void MarkOver(const std::string& reason, Time until);
-  // Worth knowing for who teaches it, while nothing is refused.
+  // Adds a remark for the agent that teaches the route, which it reads while nothing is refused.
   void Remark(const std::string& text) {
     remark_ = text;
     receipt_due = true;
   }
-  // That time has passed: a receipt is due that says so.
+  // Ends the note of MarkOver once its time has passed, and makes a receipt due that says so.
   void LapseOver(Time now);
 
-  // There is something that a receipt could say.
+  // Tells that a receipt would have something to say.
   [[nodiscard]] bool can_receipt() const {
     return holds_any() || complete() || deleted() || !full_.empty();
   }
@@ -87,15 +90,16 @@ class KeptRoute {
   [[nodiscard]] Receipt MakeReceipt(const AgentId& server, const route::RouteKey& key);
 
   WantList want;
-  // What the keeper has to do for this route.
+  // The keeper has these tasks for this route.
   bool receipt_due = false;
   bool announce_due = false;
   bool resend_due = false;  // announce although nothing changed, as after a start
-  // Nothing is left to do, unless somebody speaks of it again.
+  // Tells that nothing is left to do until an agent mentions the route again.
   [[nodiscard]] bool idle() const {
     return want.empty() && !receipt_due && !announce_due && !resend_due;
   }
-  // Another server has given it the number that it has, or was announced with; has all of it.
+  // Another server gave the route the number that it has, or that it was announced with; another
+  // server has all of it.
   bool numbered_elsewhere = false;
   bool completed_elsewhere = false;
   Time spoken_of_at{};
@@ -104,10 +108,10 @@ class KeptRoute {
   std::optional<Time> announced_at;
 
  private:
-  // Of the route's first `count` segments those that are not held, from `ask_at` on.
+  // Wants those of the route's first `count` segments that are not held, from `ask_at` on.
   void WantMissing(std::uint32_t count, Time ask_at);
   void AdvancePrefix();
-  // ChainDigest of the prefix.
+  // Returns ChainDigest of the prefix.
   [[nodiscard]] const route::Digest& PrefixDigest();
 
   std::optional<route::RouteInfo> stored_;
@@ -115,13 +119,14 @@ class KeptRoute {
   bool heard_ = false;
   SegmentDigests held_;
   SegmentDigests damaged_;
-  std::uint32_t prefix_ = 0;  // all below are held
-  // ChainDigest of the first `chained_` segments, kept so that each is hashed in once.
+  std::uint32_t prefix_ = 0;  // all segments below are held
+  // This is ChainDigest of the first `chained_` segments. It is kept so that each segment is hashed
+  // in once.
   std::uint32_t chained_ = 0;
   route::Digest chain_{};
-  std::string remark_;              // for who teaches it
-  std::string full_;                // why the store takes nothing; empty: it does
-  std::optional<Time> over_until_;  // that is a quota, told of until then
+  std::string remark_;              // for the agent that teaches it
+  std::string full_;                // why the store takes nothing; empty while it does
+  std::optional<Time> over_until_;  // set while a quota is the reason
 };
 
 }  // namespace trailcast::exchange

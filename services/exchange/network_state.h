@@ -5,10 +5,10 @@
 
 namespace trailcast::exchange {
 
-// How an exchange is on its network.
+// This is the state of an exchange's network connection.
 struct NetworkState {
-  std::string trouble{};    // why nobody can be met at present; empty: nothing keeps it from that
-  std::uint64_t joins = 0;  // how often it has joined: more than once where the network changed
+  std::string trouble{};    // why no peer can be reached at present; empty if nothing prevents it
+  std::uint64_t joins = 0;  // times it has joined; more than one where the network changed
 };
 
 }  // namespace trailcast::exchange

@@ -7,13 +7,14 @@
 
 namespace trailcast::exchange {
 
-// Publishes what a Tick returned, in order. `told` is told of each message whether it was handed
-// over; what was not, because the link is blocked, goes back to whoever wanted it said (NotSent of
-// the protocols). What can never be sent is not told of: it is in the error.
+// Publishes what a Tick returned, in order, and calls `told` for each message with whether it was
+// handed over. A message that was not, because the link is blocked, goes back to its protocol
+// (NotSent). `told` does not hear of messages that can never be sent; the returned error has the
+// first of these.
 //
-// The loop is held up for few write timeouts, not for one per message: of a topic that is blocked
-// nothing more is tried, but for segments of other routes, whose readers are others; after
-// kMostBlocked of these none. The first error, if any.
+// Few write timeouts hold up the loop, not one per message. Nothing more is tried on a topic that
+// is blocked, except segments of other routes, which have other readers. After kMostBlocked of
+// these, none is tried.
 inline constexpr int kMostBlocked = 3;
 [[nodiscard]] Result<void> PublishAll(
     RouteExchange& exchange, std::span<const Message> messages,

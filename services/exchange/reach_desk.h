@@ -12,26 +12,27 @@
 
 namespace trailcast::exchange {
 
-// Whom one program hears, how late and over what, and the answers to who asks for that. A server
-// passes questions on, and the answers back: who meets it alone hears no one else; by these it
-// measures how long a message takes there and back. No I/O, no clock.
+// This knows whom one program hears, how late and over which network, and answers those who ask for
+// it. A server passes questions on and answers back, for agents that meet only the server; from
+// these it measures how long a message takes there and back. No I/O, no clock.
 class ReachDesk {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  // Strangers can make up names: more are not kept.
+  // Strangers can make up names, so no more are kept.
   static constexpr std::size_t kMostAgents = 4096;
-  // Each question that is passed on has all robots answer: what comes sooner is asked again.
+  // All robots answer each question that is passed on, so one that comes sooner has to be asked
+  // again.
   static constexpr std::chrono::milliseconds kPassesOnEvery{100};
 
   ReachDesk(AgentId self, AgentRole role) : self_(std::move(self)), role_(role) {}
 
-  // Statuses, who is gone, questions and answers.
+  // Takes in statuses, departures, questions and answers.
   void Handle(const Message& message, Time now);
-  // Answers, and what is passed on, to be published now.
+  // Returns answers and passed-on messages, which have to be published now.
   [[nodiscard]] std::vector<Message> TakeOutgoing() { return std::exchange(outgoing_, {}); }
-  // A question that is published now, whose answers come to this one, too.
+  // Notes a question that is published now. Its answers come here too.
   void NoteAsked(const ReachRequest& request, Time now);
-  // By name.
+  // Returns the agents by name.
   [[nodiscard]] std::vector<HeardAgent> Heard(Time now) const;
 
  private:
@@ -41,7 +42,8 @@ class ReachDesk {
     Time since{};
     Time last{};
     Arrival arrival{};
-    // The shortest that was measured for this client: what is longer waited for something else.
+    // This is the shortest time measured for this client; a longer one includes waiting for
+    // something else.
     AgentId measured_for{};
     std::optional<double> round_trip_ms{};
   };

@@ -12,36 +12,37 @@
 
 namespace trailcast::exchange {
 
-// Which revision of a route is meant: that of a number; or else the newest that is complete, though
-// another be active, to be held in advance; or else the one to follow.
+// This says which revision of a route is meant: the one of a number, or else the newest complete
+// one, to be held in advance even while another is active, or else the one to follow.
 struct RevisionChoice {
-  std::uint32_t number = 0;  // 0: none in particular
+  std::uint32_t number = 0;  // 0 for none in particular
   bool newest = false;
-  std::string scout{};  // who taught it; empty: anybody
+  std::string scout{};  // its scout; empty for any
 };
 
-// Of several routes (or revisions) with one name, the one that is meant. To follow it is the active
-// one; where no operator, and no server, has said anything of a route, the newest that is complete,
-// otherwise the newest, but none that is held back. Nothing if there is none.
+// Returns the one that is meant of several routes (or revisions) with one name. The one to follow
+// is the active one. If no operator and no server has said anything of a route, it is the newest
+// complete one, otherwise the newest, but never one that is held back. Returns nothing if there is
+// none.
 [[nodiscard]] std::optional<route::RouteInfo> ChooseRoute(
     const std::vector<route::RouteInfo>& routes, const RevisionChoice& which = {});
 
-// Of several routes that a name, or the beginning of an id, may mean the revision that is meant of
-// each, if there is more than one: two scouts may have given the name.
+// Returns the revision that is meant of each route that a name, or the beginning of an id, may
+// mean, if there is more than one route: two scouts may have given the name.
 [[nodiscard]] std::vector<route::RouteInfo> FindRivals(const std::vector<route::RouteInfo>& routes,
                                                        const RevisionChoice& which = {});
-// kConflict: which there are, and how to say which is meant.
+// Returns kConflict, with the candidates and how to say which is meant.
 [[nodiscard]] tl::unexpected<Error> Ambiguous(const std::string& name_or_id,
                                               const std::vector<route::RouteInfo>& rivals);
 
-// Of what a name, or the beginning of an id, may mean the one that is meant, as ChooseRoute; or
-// else that it may be any of several.
+// Returns the one that a name, or the beginning of an id, means, as ChooseRoute does, or Ambiguous
+// if it may be any of several.
 [[nodiscard]] Result<std::optional<route::RouteInfo>> ChooseMeant(
     const std::string& name_or_id, const std::vector<route::RouteInfo>& routes,
     const RevisionChoice& which = {});
 
-// Asks the catalog which route has a name, or an id that begins so, again and again until one has.
-// No clock, no I/O.
+// This asks the catalog which route has a name, or an id that begins so, again and again until one
+// has. No clock, no I/O.
 class RouteFinder {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -54,9 +55,10 @@ class RouteFinder {
   void Handle(const exchange::Message& message);
   [[nodiscard]] std::vector<exchange::Message> Tick(Time now);
 
-  // From a catalog's reply.
+  // Returns the route from a catalog's reply.
   [[nodiscard]] const std::optional<route::RouteInfo>& found() const { return found_; }
-  // Announced by whoever holds or teaches it: second to what a catalog says, which knows them all.
+  // Returns the route as a holder or the scout announced it. A catalog's reply counts more, since a
+  // catalog knows all routes.
   [[nodiscard]] std::optional<route::RouteInfo> announced() const {
     return ChooseRoute(route::OnlyMeant(announced_, name_or_id_), which_);
   }
@@ -64,18 +66,19 @@ class RouteFinder {
     return FindRivals(route::OnlyMeant(announced_, name_or_id_), which_);
   }
 
-  // From a catalog's reply: more than one that could be meant; nothing is found then.
+  // Returns the candidates of a catalog's reply if more than one could be meant. Nothing is found
+  // then.
   [[nodiscard]] const std::vector<route::RouteInfo>& rivals() const { return rivals_; }
-  // A server's word that it has no route of this name, or none that may be followed.
+  // A server has said that it has no route of this name, or none that may be followed.
   struct Unknown {
     AgentId server;
     std::vector<std::string> similar_names;
-    std::vector<route::RouteInfo> others{};  // of this name, and none of them is meant
+    std::vector<route::RouteInfo> others{};  // of this name, but none of them is meant
   };
   [[nodiscard]] const std::optional<Unknown>& unknown() const { return unknown_; }
-  // All of `servers` have said so.
+  // Tells that all of `servers` have said so.
   [[nodiscard]] bool IsUnknownTo(const std::set<AgentId>& servers) const;
-  // A server's trouble in answering.
+  // Returns why a server could not answer.
   [[nodiscard]] const std::string& error() const { return error_; }
 
  private:
@@ -90,8 +93,8 @@ class RouteFinder {
   std::optional<route::RouteInfo> found_;
   std::vector<route::RouteInfo> announced_;  // the latest of each key, at most kMaxAnnounced
   std::vector<route::RouteInfo> rivals_;
-  std::optional<Unknown> unknown_;  // the last such word
-  std::set<AgentId> unknown_to_;    // who said so, at most kMaxAnnounced
+  std::optional<Unknown> unknown_;  // from the last such reply
+  std::set<AgentId> unknown_to_;    // servers that said so, at most kMaxAnnounced
   std::string error_;
 };
 

@@ -15,66 +15,68 @@
 namespace trailcast::exchange {
 
 struct RouteSenderOptions {
-  // Servers answer each announcement with what they have and what they lack, so this is also how
-  // soon a returning server, or a scout returning into radio range, goes on.
+  // Servers answer each announcement with what they have and what they lack. So this also bounds
+  // how soon a returning server, or a scout that returns into radio range, goes on.
   std::chrono::milliseconds announce_every{2000};
   AnswerQueue::Options answers{};
   std::size_t answer_bytes_per_tick = 512U << 10U;  // so that one Tick never floods a radio link
 };
 
-// What a revision is to a server's operators, and which of its route robots follow there, if any.
+// This is a revision's lifecycle state at a server, and the revision of its route that robots
+// follow there, if any.
 struct StandingThere {
   route::Standing standing = route::Standing::kStaged;
-  RevisionNumber followed{};  // 0: none
+  RevisionNumber followed{};  // 0 if there is none
 };
 
-// The scout's end of the protocol for one route: announces, streams, answers, and keeps count of
-// what some server has confirmed. No clock, no I/O: messages in, messages out. The owner stores
-// each piece before Add, and publishes what Tick returns.
+// This is the scout's end of the protocol for one route. It announces, streams, answers, and counts
+// what some server has acknowledged. It has no clock and no I/O: messages go in, messages come out.
+// The owner stores each piece before Add, and publishes what Tick returns.
 class RouteSender {
  public:
   using Time = std::chrono::steady_clock::time_point;
   // Reads from the owner's store.
   using ReadPiece = std::function<Result<route::SegmentPiece>(SegmentIndex)>;
 
-  // `held` and `receipted` are from the store after a restart, and empty for a new route.
+  // `held` and `receipted` come from the store after a restart, and are empty for a new route.
   RouteSender(AgentId self, route::RouteInfo info, ReadPiece read, SegmentDigests held,
               const std::vector<SegmentIndex>& receipted, RouteSenderOptions options = {});
 
-  // A segment was taught and stored; `info` counts it. Streamed at the next Tick, without its bytes
-  // if it has none here: for one whose bytes were taught before, so that servers have them.
+  // Adds a segment that was taught and stored; `info` counts it. The next Tick streams it. A piece
+  // without bytes stands for one whose bytes were taught before, so that servers have them.
   void Add(route::SegmentPiece piece, route::RouteInfo info);
-  // The route changed without a new segment: complete.
+  // Takes a change of the route without a new segment: it is complete.
   void Update(route::RouteInfo info);
 
   void Handle(const Message& message, Time now);
   [[nodiscard]] std::vector<Message> Tick(Time now);
-  // Of what Tick returned, this could not be handed over: a later Tick returns it again.
+  // Notes that a message of Tick could not be handed over. A later Tick returns it again.
   void NotSent(const Message& message, Time now);
 
-  // With the number that a server gave it, if it did since the last call: for RouteStore::PutRoute.
+  // Returns the info with the number that a server gave it since the last call, if one did, for
+  // RouteStore::PutRoute.
   [[nodiscard]] std::optional<route::RouteInfo> TakeNumbered();
-  // Receipted since the last call: for RouteStore::MarkReceipted.
+  // Returns segments acknowledged since the last call, for RouteStore::MarkReceipted.
   [[nodiscard]] std::vector<SegmentIndex> TakeNewlyReceipted();
-  // Pieces that were to be sent but could not be read, since the last call.
+  // Returns errors since the last call, from pieces that had to be sent and could not be read.
   [[nodiscard]] std::vector<Error> TakeReadErrors();
 
-  // Segments that no server has confirmed, rising.
+  // Returns the segments that no server has acknowledged, rising.
   [[nodiscard]] const std::set<SegmentIndex>& Unreceipted() const { return unreceipted_; }
-  // The route is complete, and a server has all of it on disk: segments and final info.
+  // Tells that the route is complete, and that a server has all of it on disk, with its final info.
   [[nodiscard]] bool AllReceipted() const;
-  // Nothing is left to be sent: all is receipted, or an operator deleted the revision.
+  // Tells that nothing is left to send: all is acknowledged, or an operator deleted the revision.
   [[nodiscard]] bool Done() const { return AllReceipted() || deleted(); }
-  // The last receipt, if it was a refusal.
+  // Returns the last receipt if it was a refusal.
   [[nodiscard]] const std::optional<Receipt>& refused() const { return refused_; }
-  // What the last receipt that was none has for people, or nothing.
+  // Returns the remark of the last receipt that was no refusal, or nothing.
   [[nodiscard]] const std::string& remark() const { return remark_; }
-  // An operator deleted the revision: nobody wants it.
+  // Tells that an operator deleted the revision, so that no server wants it.
   [[nodiscard]] bool deleted() const { return refused_ && refused_->refusal == Refusal::kDeleted; }
-  // As the last receipt has it.
+  // Returns what the last receipt says.
   [[nodiscard]] const std::optional<StandingThere>& standing() const { return standing_; }
-  // A server whose receipt names other bytes under this teaching than those held here; nothing of
-  // these counts as receipted by it.
+  // Returns a server whose receipt names other bytes under this teaching than those held here. It
+  // has acknowledged nothing of these.
   [[nodiscard]] const std::optional<AgentId>& contradicted_by() const { return contradicted_by_; }
   [[nodiscard]] const route::RouteInfo& info() const { return info_; }
 
@@ -83,7 +85,8 @@ class RouteSender {
   void TellDigests(const std::vector<SegmentIndex>& indices);
   void HandleReceipt(const Receipt& receipt);
   void MarkReceipted(SegmentIndex index);
-  // ChainDigest of the first `count` segments; nothing while one of them is not known here.
+  // Returns ChainDigest of the first `count` segments, or nothing while one of them is not known
+  // here.
   [[nodiscard]] std::optional<route::Digest> PrefixDigest(std::uint32_t count);
 
   AgentId self_;
@@ -105,7 +108,8 @@ class RouteSender {
 
   std::vector<route::SegmentPiece> to_stream_;
   AnswerQueue answers_;
-  // Asked once for what a server has: left to the server, unless the same agent asks again.
+  // These were asked for once, and a server has them. The server answers, unless the same agent
+  // asks again.
   std::set<std::pair<AgentId, SegmentIndex>> left_to_server_;
   bool changed_ = true;
   std::optional<Time> announced_at_;

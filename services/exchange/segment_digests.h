@@ -9,9 +9,9 @@
 
 namespace trailcast::exchange {
 
-// The digests of some of a route's segments. One block of memory: a hundred thousand small nodes of
-// a map, taken one by one between messages that come and go, keep the gaps of those from being
-// used again. Segments come in about their order, which costs least.
+// These are the digests of some of a route's segments, in one block of memory. A map's hundred
+// thousand small nodes, allocated one by one between messages that come and go, would keep freed
+// memory from being used again. Segments come nearly in order, which costs least.
 class SegmentDigests {
  public:
   struct Entry {
@@ -20,7 +20,7 @@ class SegmentDigests {
   };
 
   SegmentDigests() = default;
-  // Of segments 0, 1, .. in order.
+  // Takes those of segments 0, 1, .. in order.
   explicit SegmentDigests(const std::vector<route::Digest>& digests) {
     for (const route::Digest& digest : digests) {
       Put(SegmentIndex(static_cast<std::uint32_t>(entries_.size())), digest);
@@ -33,9 +33,9 @@ class SegmentDigests {
   }
   [[nodiscard]] bool contains(SegmentIndex index) const { return Find(index) != nullptr; }
   [[nodiscard]] bool empty() const { return entries_.empty(); }
-  // All, rising.
+  // Returns all, rising.
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
-  // The first one that is not below it.
+  // Returns the first entry that is not below `index`.
   [[nodiscard]] std::vector<Entry>::const_iterator From(SegmentIndex index) const {
     return std::lower_bound(
         entries_.begin(), entries_.end(), index,
@@ -50,7 +50,7 @@ class SegmentDigests {
       entries_.insert(at, {index, digest});
     }
   }
-  // What it was, if it was there.
+  // Returns the removed digest, if there was one.
   std::optional<route::Digest> Remove(SegmentIndex index) {
     const auto at = From(index);
     if (at == entries_.end() || at->index != index) return std::nullopt;

@@ -9,19 +9,19 @@
 
 namespace trailcast::exchange {
 
-// The route servers that were heard and have not gone since. Two processes of one name count as
-// one, until both have gone. No clock.
+// These are the route servers that were heard and have not gone since. Two processes of one name
+// count as one, until both have gone. No clock.
 class ServersThere {
  public:
   static constexpr std::size_t kMost = 64;  // strangers can make up names
 
-  // What is no word of a server's coming or going is passed over.
+  // Ignores messages that do not tell of a server's coming or going.
   void Handle(const Message& message);
   void Clear() { processes_.clear(); }
 
   [[nodiscard]] bool empty() const { return processes_.empty(); }
   [[nodiscard]] bool Contains(const AgentId& server) const;
-  // Each once, in the order of their names.
+  // Returns each once, in the order of their names.
   [[nodiscard]] std::set<AgentId> Names() const;
 
  private:

@@ -15,45 +15,46 @@
 namespace trailcast::exchange {
 
 struct SpareHolderOptions {
-  // How long others are left to answer first: between once and twice this, by the holder's name,
-  // so that of many spare holders one answers and the others hear it.
+  // Others have this long to answer first. It is multiplied by one to two, depending on the
+  // holder's name, so that one of many holders answers and the others hear it.
   std::chrono::milliseconds patience{300};
   std::size_t answer_bytes_per_tick = 64U << 10U;
-  // How long it listens to what others answer, once it was asked in vain.
+  // After a request in vain it listens this long to what others answer.
   std::chrono::milliseconds listen_for{10'000};
 };
 
-// A follower that has whole revisions in its own store, and lends them: to a server, whose copy
-// was damaged, and to anybody while no server is there. Only what was asked for in vain: the first
-// time it is left to the scout and to other servers, and what somebody else answers is forgotten.
-// So a busy link carries nothing twice. No clock, no I/O: messages in, messages out.
+// This is a peer cache: a follower that has whole revisions in its own store serves them to a
+// server whose copy was damaged, and to any agent while no server is present. It serves only what
+// was asked for in vain. The first request is left to the scout and to other servers, and what
+// another agent answers is forgotten, so that a busy link carries nothing twice. No clock, no I/O:
+// messages go in, messages come out.
 class SpareHolder {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  // Reads from the owner's store; what fails is not sent.
+  // Reads from the owner's store. A segment that cannot be read is not sent.
   using ReadPiece =
       std::function<Result<route::SegmentPiece>(const route::RouteKey&, SegmentIndex)>;
   using ReadInfo = std::function<Result<std::optional<route::RouteInfo>>(const route::RouteKey&)>;
 
-  // With `read_info` it also answers a server that asks who has a route that it lacks.
+  // With `read_info` it also answers a server that asks who has a route that the server lacks.
   SpareHolder(AgentId self, ReadPiece read, ReadInfo read_info = {},
               SpareHolderOptions options = {});
 
-  // The revisions that the owner has all of.
+  // Sets the revisions that are whole in the owner's store.
   void Hold(const std::vector<route::RouteKey>& revisions);
 
   void Handle(const Message& message, Time now);
   [[nodiscard]] std::vector<Message> Tick(Time now);
-  // Of what Tick returned, this could not be handed over: a later Tick returns it again, unless
-  // somebody else answers meanwhile.
+  // Notes that a message of Tick could not be handed over. A later Tick returns it again, unless
+  // another agent answers meanwhile.
   void NotSent(const Message& message, Time now);
-  // Whose segments it has to hear, to leave to others what they answer.
+  // Returns the routes whose segments it has to hear, so as not to repeat what others answer.
   [[nodiscard]] std::set<route::RouteKey> ListensTo(Time now) const;
 
  private:
   using Place = std::pair<route::RouteKey, SegmentIndex>;
   struct Due {
-    Time at;  // unless somebody else answers
+    Time at;  // unless another agent answers
     bool digest_only = false;
   };
 

@@ -13,49 +13,51 @@
 namespace trailcast::exchange {
 
 struct StandInOptions {
-  // How long who comes before is left to answer, and, as long as it does, to go on.
+  // A server that comes before this one has this long to answer and, once it answers, between its
+  // messages.
   std::chrono::milliseconds patience{300};
-  // Who asks for the same again within this is answered by all.
+  // All servers answer an agent that asks for the same again within this time.
   std::chrono::milliseconds asked_again{10'000};
-  // A server that let others stand in has not got the route: it is not waited for, for so long.
+  // A server that did not send a route has probably not got it. Others do not wait for it for this
+  // long.
   std::chrono::milliseconds silent_for{60'000};
 };
 
-// Of several servers, which may share a store, one answers who lacks segments of a route: the one
-// to which the route falls (rendezvous hashing). The others hear it, and stand in, one after the
-// other, for what it does not send. No clock, no I/O.
+// This makes one of several servers, which may share a store, answer an agent that lacks segments
+// of a route: the one to which the route falls (rendezvous hashing). The others hear it and back it
+// up, one after the other, for what it does not send. No clock, no I/O.
 class StandIn {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  static constexpr std::size_t kMostRemembered = 16'384;  // of what is left to others
+  static constexpr std::size_t kMostRemembered = 16'384;  // segments that are left to others
 
   explicit StandIn(AgentId self, StandInOptions options = {})
       : self_(std::move(self)), options_(options) {}
 
-  // Who is there, and what it sends.
+  // Takes in which servers are present, and what they send.
   void Handle(const Message& message, Time now);
-  // Of what is asked for, all of it held here, that which is to be sent at once.
+  // Returns those of the asked segments, all of them held here, that have to be sent at once.
   [[nodiscard]] std::vector<SegmentIndex> Mine(const AgentId& requester, const route::RouteKey& key,
                                                const std::vector<SegmentIndex>& asked, Time now);
-  // What was left to others, and none of them sent.
+  // Returns segments that were left to others, and that none of them sent.
   [[nodiscard]] std::map<route::RouteKey, std::vector<SegmentIndex>> Due(Time now);
 
  private:
   using Place = std::pair<route::RouteKey, SegmentIndex>;
   struct Left {
     AgentId owner;
-    Time heard_at{};  // another server, of this route
+    Time heard_at{};  // when another server of this route was last heard
     std::map<SegmentIndex, Time> due;
   };
 
   void HandleBatch(const SegmentBatch& batch, Time now);
-  // Those that come before this one, the first first.
+  // Returns the servers that come before this one, in order.
   [[nodiscard]] std::vector<AgentId> Before(const AgentId& requester, const route::RouteKey& key,
                                             Time now) const;
 
   AgentId self_;
   StandInOptions options_;
-  ServersThere servers_;  // others
+  ServersThere servers_;  // other servers
   std::map<route::RouteKey, Left> left_;
   std::size_t remembered_ = 0;  // in left_
   NewestMap<std::pair<AgentId, Place>, Time> asked_once_{kMostRemembered};

@@ -10,24 +10,25 @@
 namespace trailcast::exchange {
 
 inline constexpr std::size_t kTopics = static_cast<std::size_t>(Topic::kStores) + 1;
-// Each has a type of message; AgentGone has no topic.
+// Each topic has a type of message. AgentGone has no topic.
 static_assert(std::variant_size_v<AnyMessage> == kTopics + 1);
 
-// The topic a message travels on; empty for AgentGone, which no one publishes.
+// Returns the topic a message travels on. It is empty for AgentGone, which is never published.
 [[nodiscard]] std::optional<Topic> TopicOf(const Message& message);
 
-// One may listen to it by route: segments, neighbours.
+// Tells that this topic can be listened to by route: segments, neighbours.
 [[nodiscard]] bool IsOfRoutes(Topic topic);
 
-// The route that a message of a topic is about to which one listens by route; null for
-// messages of other topics.
+// Returns the route of a message whose topic can be listened to by route, or null for messages of
+// other topics.
 [[nodiscard]] const route::RouteKey* RouteOf(const Message& message);
 
-// As on the wire: "trailcast/routes".
+// Returns the name on the wire: "trailcast/routes".
 [[nodiscard]] const char* NameOf(Topic topic);
 
-// Distinct for each instance of a transient-local topic (routes, receipts, agents, fleet), which
-// keep the latest sample per key; empty for messages of the other topics.
+// Returns a key that is distinct for each instance of a transient-local topic (routes, receipts,
+// agents, fleet), which keeps the latest sample per key. It is empty for messages of the other
+// topics.
 [[nodiscard]] std::string InstanceOf(const Message& message);
 
 }  // namespace trailcast::exchange

@@ -11,45 +11,49 @@
 
 namespace trailcast::exchange {
 
-// When which missing segment is asked for: lowest first, a bounded number under way, again after a
-// timeout that doubles each time. Used by whoever lacks segments, follower or server. What was not
-// asked for yet costs memory by the gap, not by the segment.
+// This decides when to ask for which missing segment: the lowest first, a bounded number under way,
+// and again after a timeout that doubles each time. Followers and servers use it alike. Segments
+// that were not asked for yet cost memory by the gap, not by the segment.
 class WantList {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   struct Options {
-    // Silence, not a slow link: while answers come, those behind them are waited for.
-    std::chrono::milliseconds retry_after{1000};    // above any round trip with a busy holder
-    std::chrono::milliseconds retry_at_most{8000};  // a holder that returns is noticed by then
-    // How many are under way at first. It grows by one with each answer that came within
+    // These are for silence, not for a slow link: while answers come, it waits for the ones behind
+    // them.
+    std::chrono::milliseconds retry_after{1000};  // above any round trip with a busy holder
+    // a holder that returns is noticed within this time
+    std::chrono::milliseconds retry_at_most{8000};
+    // So many are under way at first. The number grows by one with each answer within
     // `quick_answer`, shrinks by one with each that took longer than `slow_answer`, and is halved
-    // when some do not come at all, so that on any link about so much time's worth of segments is
-    // queued: nobody who sends them waits for anybody.
+    // when some do not come at all. So on any link the queue holds segments for about that much
+    // time, and the sender's other readers do not wait.
     std::size_t first_under_way = 8;
     std::size_t least_under_way = 4;
-    std::size_t most_under_way = 1024;  // what one request may carry
+    std::size_t most_under_way = 1024;  // one request carries no more
     std::chrono::milliseconds quick_answer{250};
     std::chrono::milliseconds slow_answer{500};
   };
 
   explicit WantList(Options options) : options_(options), window_(options.first_under_way) {}
 
-  // Missing, and worth asking for from `ask_at` on (later than now when it may be coming anyway).
-  // Does nothing if it is wanted already.
+  // Wants a missing segment, to be asked for from `ask_at` on (later than now if it may be coming
+  // anyway). Does nothing if it is wanted already.
   void Want(SegmentIndex index, Time ask_at);
-  // It came: wanted no more.
+  // Notes that it came: it is no longer wanted.
   void Arrived(SegmentIndex index, Time now);
-  // Segments from `end` on are wanted no more.
+  // Segments from `end` on are no longer wanted.
   void Truncate(std::uint32_t end);
-  // What came was bad: ask again at once the first time, then by the usual timeouts.
+  // Notes that the bytes that came were bad. It is asked for again at once the first time, then
+  // after the usual timeouts.
   void AskAgain(SegmentIndex index, Time now);
-  // A holder has shown up: what was asked for in vain is asked for again at once.
+  // A holder has appeared, so segments that were asked for in vain are asked for again at once.
   void Hurry(Time now);
   void Clear();
 
-  // What is to be asked for now, rising; at most most_under_way, and nothing rather than little, so
-  // that requests are few. The caller sends it; it is under way from now on.
+  // Returns the segments to ask for now, rising, at most most_under_way. It returns nothing rather
+  // than few, so that requests are few. The caller sends the request; the segments are under way
+  // from now on.
   [[nodiscard]] std::vector<SegmentIndex> Due(Time now);
 
   [[nodiscard]] bool empty() const { return asked_.empty() && waiting_.empty(); }
@@ -71,8 +75,8 @@ class WantList {
 
   [[nodiscard]] Waitings::const_iterator FindWaiting(std::uint32_t index) const;
   bool StopWaiting(std::uint32_t index);
-  // What was asked for at `asked_at` may still come: for `wait`, and longer while answers to what
-  // was asked for before and with it do.
+  // Tells that what was asked for at `asked_at` may still come: for `wait`, and for longer while
+  // answers to earlier and simultaneous requests come.
   [[nodiscard]] bool IsPatient(Time asked_at, std::chrono::milliseconds wait, Time now) const;
   [[nodiscard]] bool IsUnderWay(const Asked& asked, Time now) const;
   [[nodiscard]] bool IsDueAgain(const Asked& asked, Time now) const;
@@ -82,8 +86,8 @@ class WantList {
   std::size_t window_;
   std::map<SegmentIndex, Asked> asked_;
   Waitings waiting_;
-  std::optional<Time> answered_at_;  // the last answer to any of it
-  Time overtaken_before_{};          // what was asked for later than before this has come already
+  std::optional<Time> answered_at_;  // when any of it was last answered
+  Time overtaken_before_{};  // the newest request that was answered; older ones are overtaken
 };
 
 }  // namespace trailcast::exchange

@@ -17,7 +17,7 @@ void AnswerQueue::Ask(const route::RouteKey& key, std::span<const SegmentIndex> 
   }
 }
 
-// What is no longer on its way makes room.
+// Segments that are no longer on their way make room.
 bool AnswerQueue::HasRoom(Time now) {
   if (remembered_ < options_.most) return true;
   if (now < cleared_at_ + options_.on_its_way) return false;
@@ -40,7 +40,7 @@ void AnswerQueue::PutBack(const route::RouteKey& key, SegmentIndex index, Time n
 AnswerQueue::Answers AnswerQueue::Due(Time now, std::size_t max_bytes, const ReadPiece& read) {
   Answers due;
   std::size_t bytes = 0;
-  // In turn: the route that was served last is the last one now.
+  // Routes take turns: the route that was served last is now the last one.
   std::vector<route::RouteKey> turn;
   for (const auto& [key, asked] : asked_) turn.push_back(key);
   std::rotate(turn.begin(), std::upper_bound(turn.begin(), turn.end(), served_last_), turn.end());

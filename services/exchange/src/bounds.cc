@@ -96,7 +96,7 @@ Result<void> Check(const Receipt& message) {
 }
 
 Result<void> Check(const CatalogRequest& message) {
-  // The query is for the server to judge: whoever asked wrongly is told so in the reply.
+  // The server judges the query, so that its reply can say what is wrong with it.
   return CheckName("client", message.client.value());
 }
 
@@ -251,7 +251,7 @@ Result<void> Check(const mission::Mission& message) {
 Result<void> Check(const mission::Report& message) {
   if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
   if (auto ok = CheckName("mission", message.mission); !ok) return ok;
-  // A robot takes a mission or refuses it: only servers put one off.
+  // A robot takes a mission or refuses it; only servers put one off.
   const auto last = message.change == 0 ? mission::State::kPutOff : mission::State::kExpired;
   if (auto ok = CheckEnum("mission state", message.state, last); !ok) return ok;
   if (auto ok = CheckEnum("what it waits for", message.waits_for, mission::WaitsFor::kLane); !ok) {

@@ -17,12 +17,14 @@
 namespace trailcast::exchange {
 namespace {
 
-// What an exchange has received and not yet taken: a queue for each topic, as DDS has readers.
+// This holds what an exchange has received and not yet taken, with a queue for each topic, as DDS
+// has readers.
 class Inbox {
  public:
   void Push(Topic topic, const std::string& instance, const Message& message) {
     auto& queue = queues_[static_cast<std::size_t>(topic)];
-    if (!instance.empty()) {  // keep-last 1: the newer replaces what was not taken in time
+    // keep-last 1: the newer sample replaces one that was not taken in time
+    if (!instance.empty()) {
       std::erase_if(queue, [&](const Entry& entry) { return entry.instance == instance; });
     }
     queue.push_back({instance, message});
@@ -60,7 +62,8 @@ struct Member {
   std::set<std::pair<Topic, route::RouteKey>> listening;
   Inbox inbox;
   std::map<std::string, Message>
-      latest;  // what it published on transient-local topics, by instance
+      // These are its samples on transient-local topics, by instance.
+      latest;
 };
 
 }  // namespace
@@ -68,7 +71,7 @@ struct Member {
 struct InProcessBus::State {
   std::mutex mutex;
   std::condition_variable arrived;
-  std::vector<Member*> members;  // each owned by its exchange
+  std::vector<Member*> members;  // the exchanges own them
 
   void Join(Member& member) {
     const std::scoped_lock lock(mutex);
@@ -88,13 +91,14 @@ struct InProcessBus::State {
       const auto* status = std::get_if<AgentStatus>(&message);
       if (status == nullptr) continue;
       const AgentGone gone{status->agent, status->instance};
-      // Not the status's instance: as over DDS, a last status not yet taken comes before the end.
+      // The instance is not the status's. As over DDS, a last status that was not taken yet comes
+      // before the end.
       Send(member, Topic::kAgents, "", gone);
     }
     arrived.notify_all();
   }
 
-  // With the mutex held.
+  // The caller holds the mutex.
   void Send(const Member& sender, Topic topic, const std::string& instance,
             const Message& message) {
     for (Member* member : members) {

@@ -18,7 +18,7 @@ KeptRoute::KeptRoute(std::optional<RouteInfo> stored, const std::vector<store::H
   for (const store::HeldSegment& segment : held) held_.Put(segment.index, segment.digest);
   AdvancePrefix();
   if (!stored_ || deleted()) return;
-  // A store that lost segments which its info counts gets them again.
+  // A store that lost segments which its info counts has to get them again.
   WantMissing(stored_->segment_count, Time{});
 }
 
@@ -31,7 +31,7 @@ KeptRoute::ClaimResult KeptRoute::Claim(const RouteInfo& info, Time ask_at) {
     claim_ = std::move(*after);
     return claim_ == stored_ ? ClaimResult::kOldNews : ClaimResult::kNews;
   }
-  // What is held already would lie beyond its end; the store would take it for old news.
+  // The held segments would lie beyond its end, and the store would take it for old news.
   const bool too_short = stored_ && info.segment_count < stored_->segment_count;
   if (info.state == RouteState::kComplete && too_short) return ClaimResult::kConflict;
   const bool was_complete = claim_ && claim_->state == RouteState::kComplete;
@@ -118,7 +118,7 @@ bool KeptRoute::TakeUp(const std::optional<RouteInfo>& stored,
     MarkHeld(segment.index, segment.digest, now);
     is_new = true;
   }
-  if (is_new) MarkRoom();  // somebody's pieces were taken
+  if (is_new) MarkRoom();  // some pieces were taken
   if (stored_) WantMissing(stored_->segment_count, ask_at);
   return is_new;
 }

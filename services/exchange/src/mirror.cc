@@ -19,7 +19,7 @@ constexpr std::size_t kReadAtOnce = 32;  // parts of the store, in one turn of t
 
 std::string TwoDigits(std::size_t part) { return fmt::format("{:02x}", part); }
 
-// By the two digits behind the first `at`; nothing of what is no route's id.
+// Returns the part by the two digits behind the first `at`, or nothing for what is no route's id.
 std::optional<std::size_t> PartOf(const RouteId& route, std::size_t at) {
   if (route.value().size() < at + 2) return std::nullopt;
   std::size_t part = 0;
@@ -42,7 +42,7 @@ std::uint64_t MirrorDigest(const RouteInfo& info) {
   } else if (teaching && info.segment_count == 0) {
     return 0;
   } else if (teaching) {
-    told.length_m = 0.0;  // estimates
+    told.length_m = 0.0;  // these are estimates
     told.bytes = 0;
     told.manifest_digest = {};
   }
@@ -57,7 +57,7 @@ void Mirror::Handle(const Message& message, Time now) {
     HandleSummary(*summary, now);
   } else if (const auto* announcement = std::get_if<RouteAnnouncement>(&message)) {
     HandleAnnouncement(*announcement, now);
-    if (store_.shared()) NoteStored(announcement->info.key);  // others put it there
+    if (store_.shared()) NoteStored(announcement->info.key);  // other processes put routes there
   } else {
     NoteServers(message, now);
   }
@@ -74,7 +74,7 @@ void Mirror::NoteServers(const Message& message, Time now) {
   const bool said_goodbye = status != nullptr && status->mode == AgentMode::kStopped;
   if (said_goodbye) others_.erase(status->agent);
   for (auto& [server, other] : others_) {
-    if (after.contains(server)) continue;  // it is there once it is compared
+    if (after.contains(server)) continue;  // it is present once it is compared
     other.there = false;
     if (!other.differs_since) other.differs_since = now;
   }
@@ -84,7 +84,7 @@ void Mirror::NoteServers(const Message& message, Time now) {
 void Mirror::HandleSummary(const StoreSummary& summary, Time now) {
   if (summary.server == self_) return;
   if (summary.parts.empty()) {
-    if (summary.prefix.empty()) return;  // of all, parts are told
+    if (summary.prefix.empty()) return;  // of all routes, parts are told
     CompareEntries(summary, now);
     return;
   }
@@ -93,7 +93,7 @@ void Mirror::HandleSummary(const StoreSummary& summary, Time now) {
     return;
   }
   const auto infos = store_.FindRoutesWithin(summary.prefix);
-  if (!infos) return;  // the store's trouble is told elsewhere
+  if (!infos) return;  // the store's trouble is reported elsewhere
   Parts ours{};
   for (const RouteInfo& info : *infos) {
     if (const auto part = PartOf(info.key.route, summary.prefix.size())) {
@@ -117,7 +117,7 @@ void Mirror::Compare(const StoreSummary& theirs, const Parts& ours, Time now) {
       if (differing.empty()) other.differs_since.reset();
       if (!differing.empty() && !other.differs_since) other.differs_since = now;
     }
-    // Not the same ones each time: some may differ for good, as those that a full disk lacks.
+    // The parts take turns, since some may differ for good, as those that a full disk lacks.
     const auto next = std::lower_bound(differing.begin(), differing.end(), first_compared_);
     std::rotate(differing.begin(), next, differing.end());
     differing.resize(std::min(differing.size(), options_.parts_at_once));
@@ -141,7 +141,7 @@ void Mirror::CompareEntries(const StoreSummary& theirs, Time now) {
     if (!same) Want(entry.key, entry.digest, now);
     if (same) ours.erase(own);
   }
-  if (!ours.empty()) Tell(theirs.prefix, now);  // of which they lack something
+  if (!ours.empty()) Tell(theirs.prefix, now);  // the others lack something of it
 }
 
 void Mirror::Want(const RouteKey& key, std::uint64_t theirs, Time now) {
@@ -175,7 +175,7 @@ void Mirror::Tell(const std::string& prefix, Time now) {
   out_.emplace_back(std::move(summary));
 }
 
-// Nothing more of it is to be had from who announces no more than what is here.
+// A holder that announces no more than what is here has nothing more to give.
 void Mirror::HandleAnnouncement(const RouteAnnouncement& announcement, Time now) {
   const auto at = under_way_.find(announcement.info.key);
   if (at == under_way_.end() || !servers_.Contains(announcement.holder)) return;
@@ -227,7 +227,7 @@ bool Mirror::ReadParts() {
   return unread_.none();
 }
 
-// What of that which is asked for has come, and what is asked for next.
+// Removes routes that have come, and asks for the next ones.
 void Mirror::See(Time now) {
   constexpr std::chrono::milliseconds kEvery{200};
   if (now < see_due_) return;

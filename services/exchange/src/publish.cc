@@ -10,7 +10,7 @@
 namespace trailcast::exchange {
 namespace {
 
-// What is blocked together.
+// These are blocked together.
 using Way = std::pair<std::optional<Topic>, route::RouteKey>;
 
 Way WayOf(const Message& message) {

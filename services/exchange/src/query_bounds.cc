@@ -1,4 +1,4 @@
-// What operators and clients may ask for.
+// These are the bounds of what operators and clients may ask for.
 #include <cmath>
 #include <utility>
 
@@ -14,7 +14,7 @@ using route::CheckName;
 using route::CheckTags;
 using route::CheckText;
 
-// A view is asked for alone.
+// A query by view has no other condition.
 Result<void> CheckAlone(const route::RouteQuery& query) {
   for (const auto& [field, asked] : {std::pair{"name", !query.name.empty()},
                                      {"name prefix", !query.name_prefix.empty()},

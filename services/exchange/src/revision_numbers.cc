@@ -12,7 +12,7 @@ namespace {
 using Known = std::vector<store::KnownTeaching>;
 using route::RouteInfo;
 
-// Of two that are active.
+// This orders two revisions that are active.
 bool CountsBefore(const RouteInfo& info, const RouteInfo& other) {
   return std::pair(other.edition, info.revision) < std::pair(info.edition, other.revision);
 }

@@ -31,7 +31,7 @@ void RouteFetcher::Learn(const route::RouteInfo& info, Time now) {
   if (info_ && info.edition > info_->edition) route::TakeLabels(*info_, info);
   const bool complete = info_ && info_->state == RouteState::kComplete;
   if (complete) {
-    // Complete routes never change; a holder that has less of it is no contradiction.
+    // Complete routes never change. A holder that has less of one is no contradiction.
     const bool less = info.state == RouteState::kTeaching;
     if (!less && (info.manifest_digest != info_->manifest_digest ||
                   info.segment_count != info_->segment_count)) {
@@ -56,7 +56,7 @@ void RouteFetcher::Handle(Message message, Time now) {
     Learn(announcement->info, now);
     if (known_before && announcement->info.key == key_) {
       want_.Hurry(now);
-      // Perhaps a holder that is new.
+      // The holder may be new.
       const bool in_vain = knocking_since_ && now >= *knocking_since_ + options_.knock_for;
       if (in_vain) knocking_since_.reset();
     }
@@ -139,7 +139,7 @@ void RouteFetcher::ReturnBorrowed(Time now) {
   borrows_ = false;
 }
 
-// A complete route's count is final, so what was wanted beyond it is forgotten.
+// A complete route's count is final, so segments wanted beyond it are forgotten.
 void RouteFetcher::WantMissing(Time ask_at) {
   if (info_->state == RouteState::kComplete) want_.Truncate(info_->segment_count);
   for (std::uint32_t i = 0; i < info_->segment_count; ++i) {
@@ -220,7 +220,8 @@ void RouteFetcher::Ask(const std::vector<SegmentIndex>& lacking, bool digests_on
   }
 }
 
-// An announcement was missed or nobody is there: soon at first, then after each silence.
+// Either an announcement was missed or no holder is there. It asks soon at first, then after each
+// silence.
 bool RouteFetcher::IsInquiryDue(Time now) {
   const bool known = info_.has_value();
   if (verdict_ || now < inquire_at_ || (known && now < heard_at_ + options_.quiet_after)) {

@@ -58,7 +58,7 @@ void RouteKeeper::Handle(Message message, Time now) {
 
 bool RouteKeeper::IsSettled(const route::RouteKey& key) {
   const auto info = store_.FindRoute(key);
-  if (!info) return true;  // the store's trouble is told elsewhere
+  if (!info) return true;  // the store's trouble is reported elsewhere
   if (!*info) return false;
   if ((*info)->standing == route::Standing::kDeleted) return true;
   if ((*info)->state != route::RouteState::kComplete) return false;
@@ -97,7 +97,7 @@ void RouteKeeper::HandleAnnouncement(const RouteAnnouncement& announcement, Time
       break;
   }
   kept->want.Hurry(now);
-  // The scout is here and perhaps missed the last receipt.
+  // The scout is back and perhaps missed the last receipt.
   if (announcement.holder == info.scout) kept->receipt_due = true;
 }
 
@@ -129,13 +129,13 @@ bool RouteKeeper::IsLent(const SegmentBatch& batch, const route::RouteKey& key, 
   return batch.IsLent(kept == nullptr ? std::nullopt : kept->scout());
 }
 
-// The segment was here once: what it must be is known.
+// The segment was here once, so its digest is known.
 bool RouteKeeper::IsKnown(const SegmentPiece& piece, Time now) {
   const KeptRoute* kept = Find(piece.key, now, Which::kStored);
   return kept != nullptr && kept->DigestOf(piece.index) == piece.digest;
 }
 
-// A piece without bytes, which another revision may have.
+// Looks for the bytes of a piece without bytes in other revisions.
 void RouteKeeper::TakeFromOthers(const SegmentPiece& named, Time now) {
   KeptRoute* kept = Find(named.key, now);
   if (kept == nullptr) return;
@@ -152,7 +152,7 @@ void RouteKeeper::TakeFromOthers(const SegmentPiece& named, Time now) {
 }
 
 void RouteKeeper::HandleRequest(const SegmentRequest& request, Time now) {
-  // Asking for routes that nobody has must not fill the memory.
+  // Requests for routes that no server has must not fill the memory.
   KeptRoute* kept = Find(request.key, now, Which::kStored);
   if (kept == nullptr) return;
   const auto holds = [&](SegmentIndex index) { return kept->Holds(index); };
@@ -176,7 +176,7 @@ void RouteKeeper::TellDigests(const route::RouteKey& key, const KeptRoute& kept,
     batch.pieces.push_back({key, index, kept.DigestOf(index).value_or(route::Digest{}), {}});
   }
   if (batch.pieces.empty()) return;
-  constexpr std::size_t kMostReplies = 256;  // 12 MB; who hears nothing asks again
+  constexpr std::size_t kMostReplies = 256;  // 12 MB; a client that hears nothing asks again
   for (SegmentBatch& part : SplitBatch(std::move(batch))) {
     if (replies_.size() < kMostReplies) replies_.emplace_back(std::move(part));
   }
@@ -219,7 +219,7 @@ std::vector<Message> RouteKeeper::Tick(Time now) {
   return out;
 }
 
-// While the store is away nobody can tell.
+// Nothing is known while the store is unavailable.
 RevisionNumber RouteKeeper::Followed(const RouteInfo& info) {
   const auto is_active = [](const RouteInfo& each) {
     return each.standing == route::Standing::kActive;

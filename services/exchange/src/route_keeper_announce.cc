@@ -1,4 +1,4 @@
-// What RouteKeeper says of its routes: as far as they are durable, once the store has it.
+// This is how RouteKeeper announces its routes: as far as they are durable, once the store has it.
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -98,7 +98,7 @@ Result<void> RouteKeeper::Put(std::span<const RouteInfo> infos, bool completing,
     return !stored || route::HasLaterLabels(info, *stored);
   });
   if (!completing && !labels_too) return store_.PutRoutes(infos);
-  // Two servers must not each give the same number, nor activate another revision.
+  // Two servers must not give the same number, nor activate different revisions.
   std::vector<RouteInfo> reconciled;
   auto put = store_.Exclusively([&] {
     return PutTogether({infos.begin(), infos.end()}, completing, reconciled);
@@ -136,7 +136,7 @@ Result<void> RouteKeeper::PutTogether(std::vector<RouteInfo> infos, bool complet
   return reconciled.empty() ? Result<void>() : store_.PutRoutes(reconciled);
 }
 
-// One commit. When the store refuses the group for a route in it, each is tried alone.
+// This is one commit. If the store refuses the group because of one route, each is tried alone.
 void RouteKeeper::StoreInfos(std::span<const RouteInfo> infos, bool completing, Time now,
                              std::vector<RouteKey>& stored) {
   if (infos.empty()) return;
@@ -154,13 +154,13 @@ void RouteKeeper::StoreInfos(std::span<const RouteInfo> infos, bool completing, 
       if (put.error().code == ErrorCode::kConflict) {
         kept.ForgetClaim();
       } else {
-        kept.announce_due = true;  // disk full: again when it may have been cleared
+        kept.announce_due = true;  // the disk was full: it is tried again when it may have room
       }
     }
   }
 }
 
-// The store's word counts: another server may have stored later news.
+// The store's version counts, since another server may have stored later news.
 void RouteKeeper::MarkStored(const RouteInfo& info, Time now, std::vector<RouteKey>& stored) {
   KeptRoute& kept = routes_.at(info.key);
   const auto found = store_.FindRoute(info.key);

@@ -1,4 +1,4 @@
-// RouteKeeper's dealings with operators: edits of what it keeps.
+// This is how RouteKeeper carries out operators' edits.
 #include <algorithm>
 #include <sstream>
 
@@ -12,9 +12,9 @@ namespace {
 using route::RouteInfo;
 using route::RouteKey;
 
-// An operator who heard no answer asks again, and all servers that share a store hear it; carried
-// out twice, some edits would do something else. So the store remembers the answer: this and why it
-// was refused, or the keys of the revisions that were changed.
+// An operator who heard no answer asks again, and all servers that share a store hear it. Some
+// edits would do something else the second time, so the store remembers the answer: this word and
+// the reason of a refusal, or the keys of the revisions that were changed.
 constexpr std::string_view kRefused = "refused ";
 constexpr std::string_view kChanged = "changed";
 
@@ -36,7 +36,7 @@ std::vector<RouteKey> KeysIn(const std::string& answer) {
   return keys;
 }
 
-// Waiting, or asking again, would not change it.
+// Neither waiting nor asking again would change it.
 bool IsRefusal(const Error& error) {
   return error.code == ErrorCode::kInvalidArgument || error.code == ErrorCode::kNotFound ||
          error.code == ErrorCode::kConflict;
@@ -116,10 +116,10 @@ Result<void> RouteKeeper::Relabel(std::span<const RouteInfo> infos, Time now) {
 
 void RouteKeeper::TellRelabelled(const RouteInfo& info, Time now) {
   KeptRoute* kept = Find(info.key, now);
-  if (kept == nullptr) return;  // the store has it; it is announced when somebody asks
+  if (kept == nullptr) return;  // the store has it, and a later request announces it
   kept->MarkStored(info);
   kept->announce_due = kept->resend_due = true;
-  kept->announced_at.reset();  // not held back
+  kept->announced_at.reset();  // so that it is not held back
   kept->receipt_at.reset();
 }
 

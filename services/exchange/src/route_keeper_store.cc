@@ -1,4 +1,4 @@
-// RouteKeeper's dealings with its store: what is durable, and what follows from that.
+// This is how RouteKeeper uses its store: what is durable, and what follows from that.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -66,10 +66,10 @@ std::vector<SegmentIndex> RouteKeeper::Lacking(const RouteKey& key, KeptRoute& k
   return lacking;
 }
 
-// Lays the one aside of which nobody spoke for longest.
+// Removes the route from memory that was not mentioned for longest.
 bool RouteKeeper::MakeRoom(Time now) {
   if (routes_.size() < options_.most_at_hand) return true;
-  // Among equals the idle one: what a route still lacks is asked for as long as there is room.
+  // Among equals it takes an idle one: missing segments are asked for as long as there is room.
   const auto rank = [](const auto& entry) {
     return std::pair(entry.second.spoken_of_at, !entry.second.idle());
   };
@@ -83,12 +83,12 @@ bool RouteKeeper::MakeRoom(Time now) {
   return true;
 }
 
-// Counts and reports what is not: held already, or in conflict with what is held.
+// Counts and reports pieces that are not new: held already, or in conflict with what is held.
 bool RouteKeeper::IsNew(const SegmentPiece& piece, Time now) {
   KeptRoute* kept = Find(piece.key, now);
   if (kept == nullptr) return false;
   if (kept->deleted()) {
-    kept->receipt_due = true;  // which says so
+    kept->receipt_due = true;  // the receipt says so
     return false;
   }
   const bool beyond = kept->complete() && piece.index.value() >= kept->stored()->segment_count;
@@ -97,7 +97,7 @@ bool RouteKeeper::IsNew(const SegmentPiece& piece, Time now) {
   if (fits && !kept->Holds(piece.index)) return true;
   if (fits) {
     ++counters_.duplicates;
-    kept->receipt_due = true;  // whoever sent it again missed the receipt
+    kept->receipt_due = true;  // the agent that sent it again has missed the receipt
     return false;
   }
   Refuse({ErrorCode::kConflict, fmt::format("segment {} of {} contradicts what is held",
@@ -123,8 +123,8 @@ void RouteKeeper::Commit(Time now) {
   Append(fresh, now);
 }
 
-// One commit. When the store refuses the group for a piece in it, halves are tried, so that the
-// rest is kept all the same.
+// This is one commit. If the store refuses the group because of one piece, halves are tried, so
+// that the rest is kept all the same.
 void RouteKeeper::Append(std::span<SegmentPiece> pieces, Time now) {
   if (pieces.empty()) return;
   if (const auto stored = store_.AppendSegments(pieces); !stored) {
@@ -165,7 +165,7 @@ void RouteKeeper::MarkAppended(SegmentPiece& piece, Time now) {
   kept.MarkHeld(piece.index, piece.digest, now);
   kept.MarkRoom();
   kept.announce_due = kept.receipt_due = true;
-  kept.receipt_at.reset();  // something new is durable: not held back
+  kept.receipt_at.reset();  // something new is durable, so the receipt is not held back
   appended_.push_back(std::move(piece));
 }
 
@@ -191,7 +191,7 @@ Result<bool> RouteKeeper::DropStray(const RouteKey& key) {
   return true;
 }
 
-// Their scouts are to know that nothing is taken, and why.
+// The scouts of these pieces learn that nothing is taken, and why.
 void RouteKeeper::TellFull(std::span<const SegmentPiece> pieces, const Error& error) {
   for (const SegmentPiece& piece : pieces) {
     KeptRoute& kept = routes_.at(piece.key);
@@ -215,7 +215,7 @@ void RouteKeeper::Refuse(const Error& error, const RouteKey& key, Time now) {
   const bool conflict = error.code == ErrorCode::kConflict;
   const bool corrupt = error.code == ErrorCode::kCorrupt;
   ++(conflict ? counters_.conflicting : corrupt ? counters_.corrupt : counters_.store_failures);
-  // A store that takes nothing takes nothing of any route.
+  // A store that is unavailable takes nothing of any route.
   const bool of_all = error.code == ErrorCode::kUnavailable;
   AddNote(conflict ? Note::Severity::kWarning : Note::Severity::kError,
           fmt::format("{}/{}", static_cast<int>(error.code), of_all ? "" : Describe(key)),
@@ -251,7 +251,7 @@ void RouteKeeper::Sent(const Message& message) {
 }
 
 void RouteKeeper::NotSent(const Message& message, Time now) {
-  constexpr std::size_t kMostReplies = 32;  // who waits for more asks again
+  constexpr std::size_t kMostReplies = 32;  // an agent that waits for more asks again
   if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
     for (const SegmentPiece& piece : batch->pieces) {
       if (!piece.bytes.empty()) answers_.PutBack(piece.key, piece.index, now);

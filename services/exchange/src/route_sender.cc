@@ -68,7 +68,8 @@ void RouteSender::HandleRequest(const SegmentRequest& request, Time now) {
 
 void RouteSender::TellDigests(const std::vector<SegmentIndex>& indices) {
   for (const SegmentIndex index : indices) {
-    if (to_stream_.size() >= kMaxPiecesPerBatch) return;  // a blocked link; who lacks it asks again
+    // the link is blocked; an agent that lacks it asks again
+    if (to_stream_.size() >= kMaxPiecesPerBatch) return;
     const route::Digest* digest = digests_.Find(index);
     if (digest != nullptr) to_stream_.push_back({info_.key, index, *digest, {}});
   }
@@ -133,7 +134,7 @@ std::vector<Message> RouteSender::Tick(Time now) {
   SegmentBatch batch{.sender = self_, .pieces = std::exchange(to_stream_, {})};
   std::move(answers.pieces.begin(), answers.pieces.end(), std::back_inserter(batch.pieces));
 
-  // Segments before the announcement that counts them, so that few are asked for needlessly.
+  // Segments go before the announcement that counts them, so that few are asked for needlessly.
   std::vector<Message> messages;
   for (SegmentBatch& part : SplitBatch(std::move(batch))) messages.emplace_back(std::move(part));
   const bool again = !Done() && announced_at_ && now >= *announced_at_ + options_.announce_every;

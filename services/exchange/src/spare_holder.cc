@@ -7,7 +7,8 @@
 namespace trailcast::exchange {
 namespace {
 
-// Of requests that were not answered; beyond it everything counts as asked for the first time.
+// It remembers so many requests that were not answered. Beyond that, every request counts as the
+// first one.
 constexpr std::size_t kMostRemembered = 100'000;
 // Strangers can make up names of servers, and segments to ask for.
 constexpr std::size_t kMostToAnswer = 16'384;
@@ -57,7 +58,7 @@ void SpareHolder::HandleRequest(const SegmentRequest& request, Time now) {
     const Place place{request.key, index};
     if (asked_once_.emplace(request.requester, place).second) continue;
     asked_once_.erase({request.requester, place});
-    if (to_answer_.size() >= kMostToAnswer) return;  // whoever lacks it asks again
+    if (to_answer_.size() >= kMostToAnswer) return;  // an agent that lacks it asks again
     const Due due{.at = now + patience_, .digest_only = request.digests_only};
     to_answer_.try_emplace(place, due).first->second.digest_only &= request.digests_only;
     listens_until_[request.key] = now + options_.listen_for;

@@ -10,10 +10,11 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// As AnswerQueue's: so long what was sent is on its way to all who ask for it.
+// As in AnswerQueue, segments that were sent are on their way to all who ask for them for this
+// long.
 constexpr milliseconds kOnItsWay{800};
 
-// The same in every build: FNV-1a.
+// FNV-1a gives the same weight in every build.
 std::uint64_t Weight(const AgentId& server, const route::RouteKey& key) {
   std::uint64_t hash = 14695981039346656037ULL;
   const auto add = [&](std::string_view text) {
@@ -22,7 +23,7 @@ std::uint64_t Weight(const AgentId& server, const route::RouteKey& key) {
   add(server.value());
   add(key.route.value());
   add(std::to_string(key.teaching.value()));
-  // Names that differ in their last letter only shall not stand in the same order for every route.
+  // Names that differ only in their last letter must not come in the same order for every route.
   hash ^= hash >> 32U;
   return hash * 0x9E3779B97F4A7C15ULL;
 }

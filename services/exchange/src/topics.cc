@@ -30,9 +30,9 @@ TopicUse ScoutTopics() {
 TopicUse FollowerTopics() {
   return {.write = {Topic::kSegmentRequests, Topic::kCatalogRequests, Topic::kAgents},
           .read = {Topic::kRoutes, Topic::kCatalogReplies, Topic::kNow},
-          // What it may lend (SpareHolder) is asked for more than once.
+          // Segments that it may lend (SpareHolder) are asked for more than once.
           .overhear = {Topic::kSegmentRequests},
-          // Commands are said again until they are answered.
+          // Commands are repeated until they are answered.
           .write_rarely = {Topic::kSegments, Topic::kNowAnswers},
           .listen = {Topic::kSegments, Topic::kNeighbours}};
 }
@@ -70,7 +70,7 @@ TopicUse ReplayTopics() {
 TopicUse OnDutyTopics() {
   TopicUse use = ReplayTopics();
   use.read.push_back(Topic::kMissions);
-  use.read.push_back(Topic::kMissionStates);  // what servers have
+  use.read.push_back(Topic::kMissionStates);  // of missions that servers have
   use.write.push_back(Topic::kMissionStates);
   use.read.push_back(Topic::kGlanceRequests);
   use.write_rarely.push_back(Topic::kGlances);
@@ -114,7 +114,7 @@ TopicUse ObserverTopics() {
 }
 
 std::optional<Topic> TopicOf(const Message& message) {
-  // In the order of the variant; AgentGone, the last, is not a topic.
+  // This is the order of the variant. AgentGone, the last, is not a topic.
   static constexpr Topic kInOrder[] = {Topic::kRoutes,
                                        Topic::kSegments,
                                        Topic::kSegmentRequests,

@@ -23,7 +23,7 @@ void WantList::Want(SegmentIndex index, Time ask_at) {
 
 void WantList::Arrived(SegmentIndex index, Time now) {
   if (const auto asked = asked_.find(index); asked != asked_.end()) {
-    // Which of several requests was answered cannot be told.
+    // With several requests, nobody can tell which one was answered.
     if (asked->second.times == 1) AdjustWindow(now - asked->second.at);
     answered_at_ = now;
     overtaken_before_ = std::max(overtaken_before_, asked->second.at);
@@ -74,7 +74,7 @@ void WantList::Clear() {
 }
 
 std::vector<SegmentIndex> WantList::Due(Time now) {
-  // What nobody answered for takes no part of the window, and yet is bounded.
+  // Requests that were not answered take no part of the window, but are bounded too.
   const std::size_t most_asked = 4 * options_.most_under_way;
   auto under_way =
       static_cast<std::size_t>(std::count_if(asked_.begin(), asked_.end(), [&](const auto& entry) {
