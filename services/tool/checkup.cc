@@ -20,7 +20,7 @@ constexpr std::uint64_t kMiB = 1U << 20U;
 constexpr std::uint64_t kGoodBuffer_bytes = 4 * kMiB;
 constexpr std::uint64_t kLowDisk_bytes = 1024 * kMiB;
 constexpr std::uint64_t kFullDisk_bytes = 64 * kMiB;
-constexpr double kGoodClock_s = 1.0;  // ages are told in seconds
+constexpr double kGoodClock_s = 1.0;  // ages are given in seconds
 
 std::optional<std::uint64_t> ReadNumber(const char* file) {
   std::ifstream in(file);
@@ -34,7 +34,7 @@ std::vector<NetworkInterface> Interfaces() {
   if (getifaddrs(&list) != 0) return {};
   std::map<std::string, NetworkInterface> interfaces;
   for (const ifaddrs* each = list; each != nullptr; each = each->ifa_next) {
-    // Only those with an IPv4 address carry our DDS.
+    // Our DDS uses IPv4 only.
     if (each->ifa_addr == nullptr || each->ifa_addr->sa_family != AF_INET) continue;
     interfaces[each->ifa_name] = {each->ifa_name, (each->ifa_flags & IFF_UP) != 0,
                                   (each->ifa_flags & IFF_MULTICAST) != 0,
@@ -107,7 +107,7 @@ Finding JudgeNetwork(const std::vector<NetworkInterface>& interfaces, const std:
     return {Grade::kBad, fmt::format("network: interface '{}' is down", found->name),
             fmt::format("as root: ip link set {} up", found->name)};
   }
-  // Cyclone treats the loopback as able to, whatever its flag says.
+  // Cyclone assumes that the loopback can multicast, whatever its flag says.
   if (!found->multicast && !found->loopback) {
     return {Grade::kBad, fmt::format("network: interface '{}' has no multicast", found->name),
             "robots find each other by multicast; as root: ip link set " + found->name +
@@ -129,7 +129,7 @@ Finding JudgeClock(std::optional<double> off_s) {
 
 Finding JudgeCycloneUri(const std::string& uri) {
   for (std::size_t from = 0; from < uri.size();) {
-    if (uri[from] == '<') break;  // XML may hold commas; files that follow it are rare
+    if (uri[from] == '<') break;  // XML may hold commas, and files rarely follow it
     const std::size_t comma = std::min(uri.find(',', from), uri.size());
     std::string file = uri.substr(from, comma - from);
     if (file.starts_with("file://")) file.erase(0, 7);

@@ -8,12 +8,12 @@
 
 namespace trailcast::tool {
 
-// What a look at this machine found, and what to do about it.
+// This is one result of examining the machine, with advice.
 struct Finding {
   enum class Grade : std::uint8_t { kGood, kWarning, kBad };
   Grade grade = Grade::kGood;
   std::string what;
-  std::string advice;  // empty when there is none to give
+  std::string advice;  // empty if there is none
 };
 
 struct NetworkInterface {
@@ -23,24 +23,26 @@ struct NetworkInterface {
   bool loopback = false;
 };
 
-// The kernel's bound on a socket's receive buffer, bytes; nothing: it could not be read. Routes
-// come in bursts: with Debian's 208 KiB some of each is lost on a busy machine, and sent again.
+// Takes the kernel's bound on a socket's receive buffer in bytes, or nothing if it could not be
+// read. Routes come in bursts: with Debian's 208 KiB a busy machine loses some of each, and it is
+// sent again.
 [[nodiscard]] Finding JudgeReceiveBuffer(std::optional<std::uint64_t> most_bytes);
-// `wanted`: the one to be used; empty: DDS chooses.
+// `wanted` is the interface to use. If it is empty, DDS chooses.
 [[nodiscard]] Finding JudgeNetwork(const std::vector<NetworkInterface>& interfaces,
                                    const std::string& wanted);
-// How far the kernel thinks its clock may be off, seconds; nothing: nobody keeps it right.
+// Takes the kernel's estimate of its clock's error in seconds, or nothing if no program keeps the
+// clock right.
 [[nodiscard]] Finding JudgeClock(std::optional<double> off_s);
-// `uri`: CYCLONEDDS_URI, as Cyclone DDS reads it: files, or XML itself, with commas between.
+// `uri` is CYCLONEDDS_URI, as Cyclone DDS reads it: files or XML, with commas between.
 [[nodiscard]] Finding JudgeCycloneUri(const std::string& uri);
 [[nodiscard]] Finding JudgeDisk(const std::filesystem::path& folder,
                                 std::optional<std::uint64_t> free_bytes);
 
-// All of that on this machine, with `folder` for its routes.
+// Judges all of that on this machine, with `folder` for its routes.
 [[nodiscard]] std::vector<Finding> ExamineMachine(const std::filesystem::path& folder,
                                                   const std::string& network_interface);
 
-// One line each, "ok", "warn" or "BAD" first, the advice below.
+// Returns a line for each finding, with "ok", "warn" or "BAD" first and the advice below.
 [[nodiscard]] std::string CheckupText(const std::vector<Finding>& findings);
 
 }  // namespace trailcast::tool

@@ -69,7 +69,8 @@ bool GoesOn(const std::vector<Part>& parts, std::size_t i) {
   return i + 1 < parts.size() && parts[i + 1].begin <= parts[i].end + kNothing;
 }
 
-// At both ends of each part, so that its value is drawn all along it, and once more before a gap.
+// Each part has a point at both ends, so that its value is drawn all along it, and one more before
+// a gap.
 plot::ChartAxis AxisOf(const std::string& label, const std::vector<Part>& parts) {
   constexpr image::Color kDiffers{255, 236, 170};
   plot::ChartAxis axis{.label = label, .x = {}, .borders = {}, .bands = {}};
@@ -118,7 +119,7 @@ std::vector<plot::StripChart> ChartsOf(const joints::Comparison& found) {
   return charts;
 }
 
-// Two scouts may each have given a name.
+// Two scouts may have given the same name to two routes.
 std::string CalledIn(const RouteDiff& diff, const route::RouteInfo& info) {
   if (diff.a.name != diff.b.name || diff.a.key.route == diff.b.key.route) {
     return fmt::format("{}@{}", info.name, info.revision.value());
@@ -127,7 +128,7 @@ std::string CalledIn(const RouteDiff& diff, const route::RouteInfo& info) {
   return route::ShortIds(both).Of(info);
 }
 
-// How the second route is to the first.
+// Tells how the second route relates to the first.
 std::string HowText(const RouteDiff& diff) {
   const std::string a = CalledIn(diff, diff.a);
   const std::string b = CalledIn(diff, diff.b);
@@ -194,7 +195,7 @@ Result<plot::Drawing> DrawDiff(const RouteDiff& diff) {
   constexpr double kLeft_px = 62.0;
   constexpr double kRight_px = 22.0;
   constexpr double kHead_px = 54.0;
-  constexpr double kGap_px = 38.0;  // a title and a legend fit
+  constexpr double kGap_px = 38.0;  // This leaves room for a title and a legend.
   constexpr double kStripHeight_px = 150.0;
   constexpr double kAxis_px = 48.0;
   constexpr double kTextHeight_px = 11.0;

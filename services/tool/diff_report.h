@@ -10,20 +10,21 @@
 
 namespace trailcast::tool {
 
-// Two complete revisions, and what is otherwise on the second.
+// These are two complete revisions, and the differences of the second.
 struct RouteDiff {
   route::RouteInfo a;
   route::RouteInfo b;
   joints::Comparison found;
 };
 
-// A table of the stretches that differ, and a line that sums up; for programs, an object with all
-// parts besides.
+// Returns a table of the sections that differ with a summary line. The JSON is an object that has
+// all parts as well.
 [[nodiscard]] std::string DiffText(const RouteDiff& diff);
 [[nodiscard]] nlohmann::ordered_json DiffJson(const RouteDiff& diff);
 
-// Along the first route's path: how many features a metre stayed, went and came, and how far aside
-// the second's path is, where that is known. kInvalidArgument: they do not go the same way.
+// Draws along the first route's path how many features a metre stayed, went and came, and how far
+// aside the second's path is, where that is known. Returns kInvalidArgument if they do not go the
+// same way.
 [[nodiscard]] Result<plot::Drawing> DrawDiff(const RouteDiff& diff);
 
 }  // namespace trailcast::tool

@@ -10,28 +10,29 @@
 
 namespace trailcast::tool {
 
-// A route as joints are looked for in it.
+// This is a route in which junctions are looked for.
 struct JoinableRoute {
   route::RouteInfo info;
   joints::RouteViews views;
 };
 
 struct FoundJoint {
-  std::size_t a = 0;  // positions among the routes; the same for a route that comes back
+  std::size_t a = 0;  // positions among the routes; equal for a route that comes back
   std::size_t b = 0;
   joints::Joint joint;
 };
 
-// Of every two of `routes` and of each with itself; if `only_first`, of the first with each.
+// Looks for junctions of every two of `routes` and of each with itself, or, if `only_first`, of the
+// first with each.
 [[nodiscard]] std::vector<FoundJoint> FindAllJoints(const std::vector<JoinableRoute>& routes,
                                                     bool only_first);
 
-// "hall@12.0 office@0.4 for 5.3 m, agreed by 43 features, 0.97 sure, 3 degrees to the left", a line
-// a joint. Routes of one name are called by their ids; places on those taught without odometry are
-// in seconds of teaching: "hall@12.0s".
+// Returns a line for each junction: "hall@12.0 office@0.4 for 5.3 m, agreed by 43 features, 0.97
+// sure, 3 degrees to the left". Routes of the same name are called by their ids. Places on routes
+// that were taught without odometry are in seconds of teaching: "hall@12.0s".
 [[nodiscard]] std::string JointsText(const std::vector<JoinableRoute>& routes,
                                      const std::vector<FoundJoint>& found);
-// For programs: one object.
+// Returns one object, for programs.
 [[nodiscard]] nlohmann::ordered_json JointsJson(const std::vector<JoinableRoute>& routes,
                                                 const std::vector<FoundJoint>& found);
 

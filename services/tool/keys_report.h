@@ -8,9 +8,9 @@
 
 namespace trailcast::tool {
 
-// For people: one line a member.
+// Returns a line for each member, for people.
 [[nodiscard]] std::string KeysTable(const std::vector<security::Authority::Row>& rows);
-// For programs: an array of objects.
+// Returns an array of objects, for programs.
 [[nodiscard]] nlohmann::ordered_json KeysJson(const std::vector<security::Authority::Row>& rows);
 
 }  // namespace trailcast::tool

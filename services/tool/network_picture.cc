@@ -15,7 +15,7 @@ using plot::NetworkPicture;
 
 class Reader {
  public:
-  // Each once, and before what is on them.
+  // Takes each route once, before what is on it.
   void TakeRoute(const network::Route& route) {
     numbers_.emplace(route.name, picture_.routes.size());
     picture_.routes.push_back({.name = route.name, .length_m = route.length_m});
@@ -66,7 +66,7 @@ class Reader {
     route.marked.push_back(marked);
   }
 
-  // "hall", or "hall@2" of another revision than is followed.
+  // Finds "hall", or "hall@2" if robots follow another revision.
   [[nodiscard]] std::optional<NetworkPicture::Place> Find(const network::Place& place) const {
     auto at = numbers_.find(place.route);
     if (at == numbers_.end()) at = numbers_.find(place.route.substr(0, place.route.rfind('@')));
@@ -85,7 +85,7 @@ Result<NetworkPicture> PictureOf(const std::vector<std::string>& lines) {
   std::vector<network::Listed> listed;
   listed.reserve(lines.size());
   for (const std::string& line : lines) listed.push_back(network::ParseListed(line));
-  // Rows by name: servers list routes by their ids, which are drawn at random.
+  // Rows are sorted by name, since servers list routes by their random ids.
   std::map<std::string, network::Route> routes;
   for (const network::Listed& each : listed) {
     if (each.route) routes.emplace(each.route->name, *each.route);

@@ -8,13 +8,13 @@
 
 namespace trailcast::tool {
 
-// More than people look at in one picture.
+// People cannot make sense of more in one picture.
 inline constexpr std::size_t kMostRoutesInPicture = 200;
 
-// What a server lists of its network (`fleet::AskForNetwork`), to be drawn, rows by name: proposed
-// joints as those that are not used; joints
-// and names of revisions that are not followed on the row of those that are, as far as there is
-// one. Errors: kNotFound where no route is listed; kInvalidArgument: too many of them.
+// Returns what a server lists of its network (`fleet::AskForNetwork`) as a picture, with rows by
+// name. Proposed junctions are drawn as unused ones. Junctions and names of revisions that robots
+// do not follow are on the row of the one that they do, as far as there is one. Errors: kNotFound
+// if no route is listed; kInvalidArgument if there are too many.
 [[nodiscard]] Result<plot::NetworkPicture> PictureOf(const std::vector<std::string>& lines);
 
 }  // namespace trailcast::tool

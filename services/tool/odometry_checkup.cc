@@ -25,13 +25,13 @@ constexpr double kTurnedEnough_rad = 1.0;
 constexpr double kDrivenEnough_m = 1.0;
 constexpr double kInTime_s = 0.1;
 constexpr double kSameTurn = 0.12;
-constexpr double kSteady = 2.0;  // largest to least
-// A camera that looks a few degrees aside, and lenses, bring about as much.
+constexpr double kSteady = 2.0;  // ratio of the largest to the least
+// Lenses, and a camera that looks a few degrees aside, cause about as much.
 constexpr double kLeastDrift_radps = 0.012;
 constexpr double kDriftNoise = 1.2;
 constexpr double kStandingDrift_radps = 0.01;
 constexpr double kSameWay = 0.15;
-// What cameras of robots see across.
+// Robots' cameras have fields of view within these bounds.
 constexpr double kNarrow_deg = 25.0;
 constexpr double kWide_deg = 150.0;
 constexpr std::size_t kMostTold = 3;
@@ -68,7 +68,7 @@ bool Drifts(const OdometryWorth& worth) {
          std::abs(worth.standing_drift_radps.value_or(0.0)) > kStandingDrift_radps;
 }
 
-// Both turn, or one should.
+// Tells that both turn, or that one of them should.
 bool TurnsEnough(const OdometryWorth& worth) {
   return std::max(worth.picture_turned_rad, worth.turned_rad) >= kTurnedEnough_rad;
 }
@@ -113,7 +113,7 @@ Finding JudgeTurnScale(double scale, const std::string& by) {
   return {Grade::kWarning, what, fmt::format(kSetTurn, scale)};
 }
 
-// With nothing that tells the focal length: it is what odometry has it to be.
+// If nothing tells the focal length, this reports the one that odometry implies.
 Finding JudgeUnscaled(const TurnFit& turn) {
   const double implied_deg = Degrees(FieldOfView(route::kUsualFocalShare / turn.scale));
   const std::string what = fmt::format(
@@ -143,7 +143,7 @@ void JudgeTurns(const OdometryWorth& worth, std::optional<double> field_of_view_
          "turn the camera, or add 180 to --camera-roll)"});
     return;
   }
-  // What drifts all the while is no matter of each turn.
+  // A steady drift is no fault of each turn.
   if (worth.whole_turn && !Drifts(worth)) {
     const double scale = std::abs(worth.whole_turn->odometry_rad) / (2.0 * std::numbers::pi);
     findings.push_back(JudgeTurnScale(scale, "a whole turn, after which the first view came back"));

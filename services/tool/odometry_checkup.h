@@ -8,12 +8,14 @@
 
 namespace trailcast::tool {
 
-// How wide a camera sees with that focal length, of its picture's width, and the other way about.
+// These convert a focal length, as a share of the picture's width, to the camera's field of view,
+// and back.
 [[nodiscard]] double FieldOfView(double focal_share);
 [[nodiscard]] double FocalShare(double field_of_view_rad);
 
-// What a drive's odometry is worth, held against its pictures, what Trailcast makes of it, and what
-// to set. `field_of_view_rad`: as the drive was looked at; nothing: a usual camera's was taken.
+// Judges a drive's odometry against its pictures, what Trailcast makes of it, and what to set.
+// `field_of_view_rad` is the one that the drive was examined with; without it a usual camera's was
+// assumed.
 [[nodiscard]] std::vector<Finding> JudgeOdometry(const agent::DriveLook& drive,
                                                  std::optional<double> field_of_view_rad);
 

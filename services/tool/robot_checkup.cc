@@ -20,9 +20,9 @@ constexpr double kFewestScans_hz = 5.0;
 constexpr double kSameClock_s = 0.5;
 constexpr double kLateStamps_s = 0.08;
 constexpr double kLateBase_s = 0.4;
-constexpr double kLeastTurn = 0.3;  // of what was told
+constexpr double kLeastTurn = 0.3;  // share of the commanded turn
 constexpr double kMostTurn = 1.7;
-constexpr double kLeastShift = 0.03;  // of the width
+constexpr double kLeastShift = 0.03;  // share of the width
 
 Finding JudgeTopics(const agent::RobotMeasures& measures, const dds::Ros2Options& topics) {
   const auto missing = [&](const std::string& what, const std::string& advice) {

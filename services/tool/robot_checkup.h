@@ -7,11 +7,11 @@
 
 namespace trailcast::tool {
 
-// What a ROS 2 robot's measures say, and what to do about it.
+// Judges the measures of a ROS 2 robot, with advice.
 [[nodiscard]] std::vector<Finding> JudgeRobot(const agent::RobotMeasures& measures,
                                               const dds::Ros2Options& topics);
 
-// What its scanner's and range sensors' say, as far as it is said to have any.
+// Judges those of its scanner and range sensors, as far as the robot is said to have any.
 [[nodiscard]] std::vector<Finding> JudgeObstacleSensors(const agent::RobotMeasures& measures,
                                                         const dds::Ros2Options& topics);
 

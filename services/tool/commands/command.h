@@ -8,21 +8,21 @@
 
 namespace trailcast::tool {
 
-// A subcommand of `trailcast`: what its flags are, and what it does once they are parsed. `Run`
+// This is a subcommand of `trailcast`: its flags, and what it does once they are parsed. `Run`
 // returns the process's exit status.
 struct Command {
   CLI::App* app = nullptr;
   std::function<int()> run;
 };
 
-// As program::Complain, of words that were typed wrongly; returns kExitUsage.
+// Complains of wrong words as program::Complain does, and returns kExitUsage.
 inline int ComplainOfUsage(const CLI::App& app, const Error& error) {
   (void)program::Complain(app, error);
   return program::kExitUsage;
 }
 
-// Each adds its flags to `parent`. `common` is filled by the time the command runs, and outlives
-// it.
+// Each of these adds its flags to `parent`. `common` is filled before the command runs, and
+// outlives it.
 [[nodiscard]] Command AddAlignCommand(CLI::App& parent);
 [[nodiscard]] Command AddDemoCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddDoctorCommand(CLI::App& parent, const program::CommonOptions& common);
@@ -34,11 +34,11 @@ inline int ComplainOfUsage(const CLI::App& app, const Error& error) {
 [[nodiscard]] Command AddJointsCommand(CLI::App& parent);
 [[nodiscard]] Command AddJudgeCommand(CLI::App& parent);
 [[nodiscard]] Command AddKeysCommand(CLI::App& parent);
-// send, missions.
+// These are send and missions.
 [[nodiscard]] std::vector<Command> AddMissionCommands(CLI::App& parent,
                                                       const program::CommonOptions& common);
 [[nodiscard]] Command AddNetworkCommand(CLI::App& parent, const program::CommonOptions& common);
-// pause, resume, cancel, stop, release.
+// These are pause, resume, cancel, stop and release.
 [[nodiscard]] std::vector<Command> AddNowCommands(CLI::App& parent,
                                                   const program::CommonOptions& common);
 [[nodiscard]] Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common);

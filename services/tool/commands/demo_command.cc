@@ -60,7 +60,7 @@ constexpr const char* kDemoExamples =
     "--console: ended by Ctrl-C), 3 some did not,\n"
     "130 interrupted, 1 failed, 2 wrong usage.";
 
-// Nobody else's: other demos and real robots on this machine do not see it.
+// Returns a network that other demos and real robots on this machine do not see.
 program::CommonOptions PrivateNetwork(const program::CommonOptions& common) {
   program::CommonOptions network = common;
   std::random_device random;
@@ -78,7 +78,7 @@ Result<std::filesystem::path> ProgramFolder() {
   return self.parent_path();
 }
 
-// A picture of the paths, and one that moves where that is asked for.
+// Draws a picture of the paths, and a moving one if it is asked for.
 Result<void> DrawPicture(const std::string& title, std::vector<plot::PlottedPath> paths,
                          const DemoOptions& options) {
   const auto world = sim::MakeIndoorWorld();
@@ -97,7 +97,7 @@ Result<void> DrawPicture(const std::string& title, std::vector<plot::PlottedPath
   return {};
 }
 
-// Table and picture, from what the processes left in their files.
+// Prints a table and draws a picture, from the files that the processes left.
 Result<int> Report(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& robots,
                    const DemoOptions& options) {
   std::vector<std::optional<demo::ExitStatus>> ended;
@@ -118,7 +118,7 @@ Result<int> Report(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& r
   return all ? program::kExitOk : program::kExitNotArrived;
 }
 
-// A demo that ends by itself, or when it is given up, with a report.
+// Watches a demo until it ends by itself or is given up, and reports.
 Result<int> WatchToTheEnd(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& robots,
                           const program::CommonOptions& network, WatchOptions watch,
                           const std::function<Result<int>()>& report) {
@@ -142,7 +142,7 @@ Result<int> WatchToTheEnd(demo::DemoFleet& fleet, const std::vector<demo::DemoRo
   return program::kExitFailure;
 }
 
-// Robots that arrive: a picture and a table, then it is over.
+// Shows robots until they have arrived, with a picture and a table.
 Result<int> ShowArrivals(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& robots,
                          const program::CommonOptions& network, const DemoOptions& options) {
   WatchOptions watch;
@@ -155,7 +155,7 @@ Result<int> ShowArrivals(demo::DemoFleet& fleet, const std::vector<demo::DemoRob
                        [&] { return Report(fleet, robots, options); });
 }
 
-// Table and picture of robots that were sent over a network of routes.
+// Prints a table and draws a picture of robots that were sent over a network of routes.
 Result<int> ReportJourneys(demo::DemoFleet& fleet, const demo::NetworkPlan& plan,
                            const demo::NetworkShow& show, const DemoOptions& options) {
   fleet.Stop();
@@ -170,7 +170,7 @@ Result<int> ReportJourneys(demo::DemoFleet& fleet, const demo::NetworkPlan& plan
   return report->AllWell() ? program::kExitOk : program::kExitNotArrived;
 }
 
-// Three routes that are joined, and five robots that are sent over them.
+// Shows three routes that are joined, and five robots that are sent over them.
 Result<int> ShowNetwork(const std::filesystem::path& programs, const std::filesystem::path& folder,
                         const program::CommonOptions& network,
                         const program::CommonOptions& everybody, const DemoOptions& options) {
@@ -196,8 +196,8 @@ Result<int> ShowNetwork(const std::filesystem::path& programs, const std::filesy
                        [&] { return ReportJourneys(*fleet, *plan, show, options); });
 }
 
-// Robots on duty and a console, until somebody ends it; some are sent at once, so that there is
-// something to see.
+// Shows available robots and a console until it is interrupted. Some robots are sent at once, so
+// that there is something to see.
 Result<int> ShowConsole(demo::DemoFleet& fleet, const std::vector<demo::DemoRobot>& robots,
                         const program::CommonOptions& network) {
   auto peer = fleet::JoinAsOperator(network, exchange::SenderTopics());
@@ -240,7 +240,7 @@ Result<int> RunDemo(const program::CommonOptions& common, const DemoOptions& opt
     fmt::print("logs, stores and true poses: {}\n", folder->path().string());
   }
   const program::CommonOptions network = PrivateNetwork(common);
-  // Whoever shows what agents say of themselves has to hear them; in a star they hear servers only.
+  // The console has to hear the agents themselves, and in a star they hear only servers.
   program::CommonOptions everybody = network;
   everybody.discovery = "mesh";
   if (options.network) {

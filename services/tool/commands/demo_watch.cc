@@ -13,7 +13,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kTakeWait = std::chrono::milliseconds(100);
-// After the last process has ended its last status may still be on its way.
+// After the last process has ended, its last status may still be on its way.
 constexpr auto kLastWords = std::chrono::milliseconds(300);
 
 class Watch {

@@ -48,7 +48,7 @@ struct DoctorOptions {
   std::optional<double> fov_deg;
 };
 
-// A car drives a bit of its tightest circle.
+// A car drives along a piece of its tightest circle.
 constexpr double kCarSpeed_mps = 0.2;
 constexpr double kDrive_s = 60.0;
 
@@ -84,7 +84,7 @@ Result<std::vector<Finding>> ExamineRobot(const program::CommonOptions& common,
   const auto measures = agent::MeasureRobot(robot);
   if (!measures) return tl::unexpected(measures.error());
   std::vector<Finding> findings = JudgeRobot(*measures, robot.topics);
-  // What is missing has been said.
+  // The findings above name what is missing.
   const bool comes = measures->pictures > 0 && measures->odometry > 0;
   if (!options.drive_s || !comes || program::StopSignal::requested()) return findings;
   std::fprintf(stderr,
@@ -102,7 +102,7 @@ Result<std::vector<Finding>> ExamineRobot(const program::CommonOptions& common,
 
 Result<std::vector<Finding>> Examine(const program::CommonOptions& common,
                                      const DoctorOptions& options) {
-  // A recording's machine need not be fit for anything.
+  // The machine of a recording need not be fit for anything.
   if (options.drive.is_recorded()) return ExamineDrive(common, options, options.drive);
   std::vector<Finding> findings = ExamineMachine(options.folder, common.network_interface);
   if (options.robot.topics.robot.empty()) return findings;

@@ -77,7 +77,7 @@ Result<Exported> FromServer(const program::CommonOptions& common, const ExportOp
   auto info = fleet::ChooseForExport(*reply, options.route, options.which,
                                      fmt::format("server '{}'", reply->server.value()));
   if (!info) return tl::unexpected(info.error());
-  // From here on there is something to tidy up.
+  // From here on there is something to clean up.
   const program::StopSignal stop;
   watch.stop = [] { return program::StopSignal::requested(); };
   auto file = OpenFile(options, *info);

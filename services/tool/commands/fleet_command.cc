@@ -1,4 +1,4 @@
-// `trailcast fleet`.
+// This is `trailcast fleet`.
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -31,7 +31,7 @@ struct FleetOptions {
 
 int Run(const CLI::App& app, const program::CommonOptions& common, const FleetOptions& options) {
   program::CommonOptions network = common;
-  // In a star robots are heard by servers alone.
+  // In a star only servers hear robots.
   if (network.discovery == "auto") network.discovery = "mesh";
   const program::StopSignal stop;
   const auto peer = fleet::JoinAsOperator(
@@ -44,7 +44,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const FleetOp
   auto ask_at = std::chrono::steady_clock::now();
   const auto until = std::chrono::steady_clock::now() + ToMilliseconds(options.listen_s);
   while (std::chrono::steady_clock::now() < until && !program::StopSignal::requested()) {
-    // Again, for a server that was not found yet.
+    // It asks again for a server that was not found before.
     if (std::chrono::steady_clock::now() >= ask_at) {
       (void)peer->exchange->Publish(newest);
       ask_at += kAskServersAgain;

@@ -1,4 +1,4 @@
-// `trailcast glance`.
+// This is `trailcast glance`.
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -31,7 +31,7 @@ constexpr const char* kGlanceExamples =
     "on, so it is asked for in a mesh.";
 
 Result<exchange::Glance> Ask(const fleet::OperatorPeer& peer, const GlanceOptions& options) {
-  // As the exchange's rules have it, who asks again waits a second in between.
+  // The exchange asks for a second between requests.
   constexpr std::chrono::seconds kAskAgain{1};
   constexpr std::chrono::milliseconds kTakeWait{50};
   const exchange::GlanceRequest request{
@@ -40,7 +40,7 @@ Result<exchange::Glance> Ask(const fleet::OperatorPeer& peer, const GlanceOption
   auto ask_at = steady_clock::now();
   while (steady_clock::now() < deadline) {
     if (steady_clock::now() >= ask_at) {
-      // What could not be handed over is asked for again.
+      // A request that could not be handed over is repeated.
       (void)peer.exchange->Publish(request);
       ask_at = steady_clock::now() + kAskAgain;
     }

@@ -38,7 +38,7 @@ constexpr const char* kImportExamples =
     "keep the others from being imported. Exit status: 0 all are there, 1 some are not, 2 wrong\n"
     "usage.";
 
-// What is in the files; true if all are whole.
+// Prints what is in the files. Returns true if all are whole.
 bool Check(const CLI::App& app, const ImportOptions& options) {
   bool all = true;
   auto json = program::Json::array();
@@ -58,7 +58,8 @@ bool Check(const CLI::App& app, const ImportOptions& options) {
 
 using ImportOne = std::function<Result<fleet::Imported>(const RouteFile&)>;
 
-// True if all are there now. Goes on after a file that is refused, but not without a server.
+// Returns true if a server has all of them now. It goes on after a file that is refused, but not
+// without a server.
 bool ImportAll(const CLI::App& app, const ImportOptions& options, const ImportOne& import_one) {
   bool all = true;
   for (const fs::path& path : options.files) {

@@ -1,4 +1,4 @@
-// `trailcast joints`.
+// This is `trailcast joints`.
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -69,7 +69,7 @@ Result<std::vector<JoinableRoute>> FromFiles(const std::vector<std::string>& pat
   return routes;
 }
 
-// The revision that followers would take, as far as it is complete.
+// Returns the revision that followers would take, as far as it is complete.
 Result<route::RouteInfo> Meant(store::RouteStore& store, const std::string& text) {
   const auto ref = route::ParseRouteRef(text);
   if (!ref) return tl::unexpected(ref.error());

@@ -171,14 +171,14 @@ bool IsSame(const fs::path& one, const fs::path& other) {
   return fs::equivalent(one, other, error) && !error;
 }
 
-// The last two parts of its path: "drives/monday".
+// Returns the last two parts of its path: "drives/monday".
 std::string ShortName(const fs::path& recording) {
   const fs::path whole = fs::absolute(recording).lexically_normal();
   const fs::path path = whole.has_filename() ? whole : whole.parent_path();
   return (path.parent_path().filename() / path.filename()).string();
 }
 
-// What is done to the pictures, and to the odometry, in each of the replays of a recording.
+// Returns what each replay of a recording does to the pictures, and to the odometry.
 std::vector<std::pair<std::string, std::string>> Each(const JudgeCommand& judge) {
   std::vector<std::pair<std::string, std::string>> each;
   for (const std::string& disturbance : judge.disturbances) {

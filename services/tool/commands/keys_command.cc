@@ -27,7 +27,7 @@ constexpr int kMostDays = 36500;
 
 struct KeysOptions {
   std::string authority = "trailcast-keys";
-  std::string folder;  // of a new authority, or to be looked at
+  std::string folder;  // of the authority to create or to examine
   std::string name;
   std::string role;
   int authority_days = kAuthorityDays;

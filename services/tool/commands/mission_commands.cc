@@ -1,4 +1,4 @@
-// `trailcast send` and `trailcast missions`.
+// These are `trailcast send` and `trailcast missions`.
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ struct SendOptions {
   std::string robot;
   std::vector<std::string> orders;
   std::string id;
-  std::string from;  // of goto; empty: where the robot stands
+  std::string from;  // where `goto` begins; empty for where the robot stands
   double valid_s = 600.0;
   bool goes_on = false;
   bool unheard = false;
@@ -43,7 +43,7 @@ struct SendOptions {
   double timeout_s = 5.0;
 };
 
-// Whoever has just joined has heard of all who are there by then, usually.
+// After this time a program that has just joined has usually heard of all agents.
 constexpr std::chrono::milliseconds kAllAreHeard{1500};
 
 constexpr const char* kSendExamples =
@@ -82,8 +82,8 @@ constexpr const char* kSendExamples =
     "by servers, nobody\nanswered, or no such robot is known (with --wait: not arrived); 2 wrong "
     "usage, also of orders.";
 
-// Nothing where it is heard, or a server has heard of it; nor where no robot is heard at all, as in
-// a star.
+// Returns nothing if the robot is heard, or a server has heard of it, and nothing if no robot is
+// heard at all, as in a star.
 std::optional<Error> Unknown(fleet::OperatorPeer& peer, const std::string& robot) {
   using std::chrono::steady_clock;
   exchange::MissionRequest question{.client = peer.self, .request = fleet::DrawNumber()};
@@ -113,7 +113,7 @@ std::optional<Error> Unknown(fleet::OperatorPeer& peer, const std::string& robot
   return fleet::UnknownRobot(robot, {robots.begin(), robots.end()});
 }
 
-// Where it is to go, if that is what it is sent to.
+// Returns the place to go to, if the robot is sent to one.
 Result<std::optional<std::string>> GoalOf(const SendOptions& options) {
   if (options.orders.front() != "goto") {
     if (options.from.empty()) return std::nullopt;
@@ -130,7 +130,8 @@ Result<std::optional<std::string>> GoalOf(const SendOptions& options) {
   return options.orders[1];
 }
 
-// The way there as one mission has it; empty: it is there already. Tells which way it is.
+// Returns the path there as one mission's orders, or nothing if the robot is there already. It
+// prints the path.
 Result<std::string> OrdersTo(const std::string& goal, const fleet::OperatorPeer& peer,
                              const SendOptions& options) {
   const auto way = fleet::AskForWay(*peer.exchange, peer.self,
@@ -216,7 +217,7 @@ constexpr const char* kMissionsExamples =
     "  trailcast missions --commands               # who told whom to pause, stop, .. and when\n"
     "  trailcast missions --route hall --state failed --newer-than 7d --json";
 
-// "under-way", as one types it.
+// Returns the name as users type it: "under-way".
 std::string TypedName(State state) {
   std::string name = mission::ToString(state);
   std::replace(name.begin(), name.end(), ' ', '-');
@@ -242,7 +243,7 @@ mission::Query QueryOf(const MissionsOptions& options) {
   return query;
 }
 
-// What there is now, as it is shown; the ages of a table are left out of what is compared.
+// `text` is shown. `compared` leaves out the ages of a table, which change all the time.
 struct Listing {
   std::string text;
   std::string compared;
@@ -282,7 +283,7 @@ int List(const CLI::App& app, const program::CommonOptions& common,
       std::fflush(stdout);
       shown = now->compared;
     }
-    // What comes meanwhile is nobody's.
+    // Messages that come meanwhile are not needed.
     if (options.watch) (void)peer->exchange->Take(kLookAgain);
   } while (options.watch && !program::StopSignal::requested());
   return program::kExitOk;

@@ -1,4 +1,4 @@
-// `trailcast network`.
+// This is `trailcast network`.
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -96,7 +96,7 @@ bool Asks(const NetworkOptions& options) {
   return AsksForAll(options) || options.words.front() == "way" || AsksWhatPasses(options);
 }
 
-// What an edit has brought about.
+// Tells what an edit has changed.
 std::string ChangedText(const std::string& edit, const std::vector<std::string>& lines) {
   const bool settles = edit == "confirm" || edit == "refuse";
   if (lines.empty()) {
@@ -107,7 +107,7 @@ std::string ChangedText(const std::string& edit, const std::vector<std::string>&
   return (ends ? "no more: " : "") + fleet::NetworkText(lines);
 }
 
-// Of a question what passes.
+// Checks the place of a `passing` question.
 Result<void> CheckPlace(const NetworkOptions& options) {
   if (options.words.size() == 2)
     return network::ParseGoal(options.words[1]).map([](const auto&) {});
@@ -115,7 +115,7 @@ Result<void> CheckPlace(const NetworkOptions& options) {
               "'passing' takes one place: ROUTE@METRES, as hall@12.3, or what one is called");
 }
 
-// Names have no spaces, and would be taken for several words.
+// Names have no spaces, since a name with one counts as several words.
 Result<void> OneWordEach(const std::vector<std::string>& words) {
   for (std::size_t i = 1; i < words.size(); ++i) {
     std::string name = words[i];
@@ -139,7 +139,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
   if (const auto one = OneWordEach(options.words); !one) {
     return ComplainOfUsage(app, one.error());
   }
-  // Before anybody is asked, what no server would understand.
+  // Words that no server would understand are refused before any server is asked.
   if (!Asks(options)) {
     if (const auto edit = network::ParseEdit(words); !edit) {
       return ComplainOfUsage(app, edit.error());

@@ -1,4 +1,4 @@
-// `trailcast pause`, `resume`, `cancel`, `stop`, `release` and `end`.
+// These are `trailcast pause`, `resume`, `cancel`, `stop`, `release` and `end`.
 #include <fmt/format.h>
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// `trailcast reach`.
+// This is `trailcast reach`.
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -40,7 +40,7 @@ struct ReachOptions {
   std::vector<std::string> expected;
 };
 
-// Who waits for somebody need not wait longer than until all is well.
+// With an agent to wait for, the survey ends as soon as all is well.
 fleet::Reach Survey(exchange::RouteExchange& exchange, const AgentId& self,
                     const ReachOptions& options) {
   using Clock = std::chrono::steady_clock;
@@ -52,7 +52,7 @@ fleet::Reach Survey(exchange::RouteExchange& exchange, const AgentId& self,
   auto ask_at = Clock::now();
   while (Clock::now() < until && !program::StopSignal::requested()) {
     if (Clock::now() >= ask_at) {
-      // What cannot be handed over is asked again.
+      // A question that cannot be handed over is repeated.
       (void)exchange.Publish(survey.Ask(Clock::now()));
       ask_at = Clock::now() + kAskEvery;
     }
@@ -68,7 +68,7 @@ fleet::Reach Survey(exchange::RouteExchange& exchange, const AgentId& self,
 
 int Run(const CLI::App& app, const program::CommonOptions& common, const ReachOptions& options) {
   program::CommonOptions network = common;
-  // In a star robots are heard by servers alone.
+  // In a star only servers hear robots.
   if (network.discovery == "auto") network.discovery = "mesh";
   const program::StopSignal stop;
   const auto peer = fleet::JoinAsOperator(network, exchange::ReachTopics());

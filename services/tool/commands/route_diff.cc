@@ -1,4 +1,4 @@
-// `trailcast routes diff`.
+// This is `trailcast routes diff`.
 #include "services/tool/commands/route_diff.h"
 
 #include <cstdio>

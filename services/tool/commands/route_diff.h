@@ -4,7 +4,7 @@
 
 namespace trailcast::tool {
 
-// `trailcast routes diff`. `common` and `timeout_s` are filled by the time it runs, and outlive it.
+// Adds `trailcast routes diff`. `common` and `timeout_s` are filled before it runs, and outlive it.
 [[nodiscard]] Command AddRouteDiff(CLI::App& routes, const program::CommonOptions& common,
                                    const double& timeout_s);
 

@@ -30,7 +30,7 @@ void Tell(const std::vector<route::RouteInfo>& changed) {
   if (changed.empty()) std::fputs("nothing to change: it is so already\n", stdout);
 }
 
-// "hall@2" is route hall, revision 2.
+// Splits a name: "hall@2" is route hall, revision 2.
 Result<void> TakeApart(RouteEdit& edit) {
   const auto ref = program::WithRevision(edit.route, edit.revision);
   if (!ref) return tl::unexpected(ref.error());

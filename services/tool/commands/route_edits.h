@@ -6,8 +6,8 @@
 
 namespace trailcast::tool {
 
-// The subcommands of `trailcast routes` that change what followers are offered, and what routes are
-// called. `common` and `timeout_s` are filled by the time they run, and outlive them.
+// Adds the subcommands of `trailcast routes` that change what followers are offered, and what
+// routes are called. `common` and `timeout_s` are filled before they run, and outlive them.
 [[nodiscard]] std::vector<Command> AddRouteEdits(CLI::App& routes,
                                                  const program::CommonOptions& common,
                                                  const double& timeout_s);

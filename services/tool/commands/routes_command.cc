@@ -33,7 +33,7 @@ struct RoutesOptions {
   double within_m = 50.0;
   double newer_than_s = 0.0;
   double older_than_s = 0.0;
-  std::string since;  // empty: not what was changed
+  std::string since;  // empty unless changes are asked for
   std::size_t limit = 100;
   bool json = false;
   bool looked_into = false;
@@ -78,7 +78,7 @@ route::RouteQuery QueryOf(const RoutesOptions& options, std::int64_t now_unix_ms
   return query;
 }
 
-// No route of that name is a failure that says what there is.
+// Reports that no route has that name, with the names that there are, as a failure.
 int ShowNone(const CLI::App& app, const std::string& name, const exchange::CatalogReply& reply) {
   return program::Complain(
       app,
@@ -86,7 +86,7 @@ int ShowNone(const CLI::App& app, const std::string& name, const exchange::Catal
                                                 name, reply.similar_names)});
 }
 
-// Of the routes that are complete.
+// Studies the complete ones among these routes.
 Result<fleet::RouteStudies> Study(fleet::OperatorPeer& peer,
                                   const std::vector<route::RouteInfo>& routes,
                                   std::chrono::milliseconds timeout) {
@@ -206,7 +206,7 @@ Command AddRoutesCommand(CLI::App& parent, const program::CommonOptions& common)
     const auto moment = ParseSince(text, NowUnixMs());
     return moment ? std::string() : moment.error().message;
   });
-  // What was changed is told of all routes.
+  // Changes are listed for all routes, so the filters exclude them.
   for (CLI::Option* const filter : app->get_options()) {
     if (filter != since && filter != app->get_help_ptr()) since->excludes(filter);
   }
