@@ -50,7 +50,7 @@ void CellGrid::ForEachRun(Function function) const {
 
 void CellGrid::Grow(std::size_t cells) {
   const double even = even_ * static_cast<double>(even_cells());
-  // The last block, if it was not full, goes on.
+  // The last block grows if it was not full.
   if (!active_.empty() && active_.back() != 0) {
     const std::size_t filled = std::min(blocks() * kBlock, cells_.size() + cells);
     active_cells_ += filled - cells_.size();
@@ -101,7 +101,7 @@ void CellGrid::AddEvenly(double mass) {
   even_ += each;
 }
 
-// What moves on comes to the neighbouring blocks, too.
+// Mass that moves on comes to the neighbouring blocks too.
 void CellGrid::ActivateAround(std::size_t reach) {
   const std::size_t around = (reach + kBlock - 1) / kBlock;
   std::vector<std::size_t> wanted;

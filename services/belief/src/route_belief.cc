@@ -9,16 +9,15 @@
 namespace trailcast::belief {
 namespace {
 
-constexpr double kSamePlace =
-    1e-3;  // key views no further apart, of a robot that turned on the spot
+constexpr double kSamePlace = 1e-3;  // of key views no further apart the robot turned on the spot
 constexpr std::size_t kMagnificationsKept = 60;
-constexpr double kFewestMagnifications = 3.0;  // of independent looks
-constexpr double kKnownMagnification = 10.0;   // what an earlier run knew counts as so many
+constexpr double kFewestMagnifications = 3.0;  // sum of the independence of looks
+constexpr double kKnownMagnification = 10.0;   // weight of what an earlier run found
 
-constexpr double kGrowthLearns = 0.15;  // a look
-constexpr double kShrinks = -0.003;     // a look: a robot that drives backwards
+constexpr double kGrowthLearns = 0.15;  // for each look
+constexpr double kShrinks = -0.003;     // for each look: below it the robot drives backwards
 
-// Half of the weight is below it.
+// Returns the value with half of the weight below it.
 double WeightedMedian(const std::deque<std::pair<double, double>>& values_and_weights) {
   std::vector<std::pair<double, double>> sorted(values_and_weights.begin(),
                                                 values_and_weights.end());
@@ -84,7 +83,7 @@ void RouteBelief::KnowMagnification(double log_magnification) {
   log_magnification_ = log_magnification;
 }
 
-// The mass of all witnesses, whichever of them is right.
+// Returns the mass of all witnesses together.
 CellGrid RouteBelief::Together() const {
   CellGrid all = witnesses_.front().grid().cells();
   for (std::size_t i = 1; i < witnesses_.size(); ++i) {
@@ -93,8 +92,8 @@ CellGrid RouteBelief::Together() const {
   return all;
 }
 
-// So many witnesses tell from now on how the robot moves: what is believed is so whichever of them
-// is right.
+// Sets the number of witnesses. The mass belongs to all of them alike, since it holds whichever of
+// them is right.
 void RouteBelief::Hear(std::size_t witnesses) {
   if (witnesses_.size() == witnesses) return;
   Witness one(options_.cell);
@@ -108,7 +107,7 @@ void RouteBelief::Move(std::span<const Motion> told) {
   if (cells() == 0) return;
   Hear(told.size());
   for (std::size_t i = 0; i < told.size(); ++i) witnesses_[i].Move(told[i], options_.diffusion);
-  // A guess tells nothing of the place that the next look would not tell better.
+  // A guessed motion tells less of the place than the next look does.
   if (std::any_of(told.begin(), told.end(), [](const Motion& each) { return !each.guessed; })) {
     Locate();
   }
@@ -133,7 +132,7 @@ double RouteBelief::Trust(std::size_t witness) const {
   return most > 0.0 ? witnesses_[witness].grid().cells().Sum() / most : 1.0;
 }
 
-// The better witness may be another one by now.
+// Shifts mass between witnesses, since another one may be the better by now.
 void RouteBelief::SwitchWitnesses(double independent) {
   if (witnesses_.size() == 1) return;
   const double changes = options_.witness_changes * independent;
@@ -144,7 +143,7 @@ void RouteBelief::SwitchWitnesses(double independent) {
   }
 }
 
-// Log-likelihood ratio by how many features agree.
+// Returns the log-likelihood ratio of that many agreeing features.
 double RouteBelief::Alike(int agreed, int best) const {
   const double ratio =
       std::clamp(options_.gain * (agreed - options_.neutral), options_.least, options_.most);
@@ -152,16 +151,16 @@ double RouteBelief::Alike(int agreed, int best) const {
   return ratio + std::max(options_.behind_best_least, behind);
 }
 
-// ... and by how large they are, where the scout would have seen them so much larger than in the
-// view itself.
+// Returns the log-likelihood ratio of their size. The scout would have seen them larger by `growth`
+// than in the view itself.
 double RouteBelief::SizeFits(const ComparedView& view, double growth) const {
   const double off = (view.log_scale - *log_magnification_ - growth) / options_.log_scale_sigma;
   return std::max(options_.log_scale_least, -0.5 * off * off);
 }
 
-// The views that are next to a place on either side of it, and those that share it.
+// These are the views next to a place on either side, and those that share it.
 struct RouteBelief::Neighbours {
-  std::size_t first = 0;  // of those that share it
+  std::size_t first = 0;  // the first of those that share it
   std::size_t after = 0;  // the next one, or views_.size()
 };
 
@@ -177,7 +176,7 @@ RouteBelief::Neighbours RouteBelief::NeighboursOf(std::size_t view) const {
   return neighbours;
 }
 
-// Between two views both count, each the more the nearer it is.
+// Between two views both count, and the nearer one counts more.
 void RouteBelief::WeighCellsAbout(const ComparedView& view, int best, double independent,
                                   MovedGrid& grid) {
   const double at = views_[view.view].at;
@@ -208,7 +207,7 @@ void RouteBelief::WeighCellsAbout(const ComparedView& view, int best, double ind
   grid.cells().Multiply(first, factors);
 }
 
-// The less the further off, as between two views.
+// The weight falls with the distance, as between two views.
 void RouteBelief::WeighCellsAbout(const TrackedPlace& tracked, int best, double independent,
                                   MovedGrid& grid) {
   const double ratio = Alike(tracked.agreed, best);
@@ -232,7 +231,7 @@ void RouteBelief::Weigh(std::span<const ComparedView> compared, double independe
   std::vector<ComparedView> ordered(compared.begin(), compared.end());
   std::sort(ordered.begin(), ordered.end(),
             [](const auto& a, const auto& b) { return a.view < b.view; });
-  // Of those that share their place, the one that is recognised best.
+  // The best recognised one counts of those that share a place.
   for (auto view = ordered.begin(); view != ordered.end();) {
     const double at = views_[view->view].at;
     const auto end = std::find_if(view, ordered.end(), [&](const ComparedView& other) {
@@ -282,7 +281,7 @@ void RouteBelief::Normalise() {
   off_ /= sum;
 }
 
-// The mass about a place, and its first two moments about that.
+// This is the mass around a place, with its first two moments.
 struct RouteBelief::Window {
   double middle = 0.0;
   double mass = 0.0;
@@ -397,7 +396,7 @@ void RouteBelief::NoteWay(bool was_held) {
   }
 }
 
-// Of what is seen of the nearest view, so much is its having been taught from elsewhere.
+// This part of the nearest view's magnification comes from where the view was taught.
 void RouteBelief::NoteMagnification(const ComparedView& nearest, double independent) {
   const double at = views_[nearest.view].at;
   const auto [first, next] = NeighboursOf(nearest.view);

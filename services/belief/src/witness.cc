@@ -8,8 +8,9 @@
 namespace trailcast::belief {
 namespace {
 
-// How far a robot may have come whose way nobody measured, in multiples of what is guessed: about
-// that half of the time, anything from standing to a multiple of it otherwise; a little backwards.
+// These are shares of how far a robot may have come whose motion nobody measured, in multiples of
+// the guess: half of it lies about the guess, the other half reaches from standing to a multiple of
+// it, with a little backwards.
 struct Share {
   double of_guess = 0.0;
   double weight = 0.0;
@@ -17,15 +18,15 @@ struct Share {
 constexpr std::array kGuesses = {Share{0.0, 0.11}, Share{0.35, 0.08}, Share{0.7, 0.16},
                                  Share{1.0, 0.25}, Share{1.4, 0.14},  Share{2.0, 0.10},
                                  Share{3.0, 0.05}, Share{-1.0, 0.05}};
-// Whatever the pace so far, some multiples of the taught one.
+// Some multiples of the taught pace are possible whatever the pace so far.
 constexpr std::array kPaces = {Share{3.0, 0.04}, Share{4.5, 0.02}};
 constexpr double kSlowestPace = 0.2;
 constexpr double kFastestBackwards = -3.0;
 constexpr double kFastestPace = 4.0;
-constexpr double kPaceLearns = 0.1;       // a look
-constexpr double kLongestPaceStep = 0.4;  // route units between looks that say something of pace
-// A measured way's scale is measured over so many units, each end of them known to about so much;
-// it drifts by so much a root unit, and lies within these bounds.
+constexpr double kPaceLearns = 0.1;       // for each look
+constexpr double kLongestPaceStep = 0.4;  // route units between looks that tell of the pace
+// A measured motion's scale is measured over this many units, with ends known to about this much.
+// It drifts by this much a root unit, and lies within these bounds.
 constexpr double kScaleBase = 2.0;
 constexpr double kEndSigma = 0.2;
 constexpr double kScaleDrift = 0.01;
@@ -80,8 +81,8 @@ void Witness::LearnPace(double come, double moved, bool drives_backwards) {
   scale_ = std::clamp(scale_ + kPaceLearns * (come / moved - scale_), slowest, kFastestPace);
 }
 
-// A Kalman filter of one number, measured every so many units. What a witness tells that is not
-// believed says nothing of its scale, unless it is wrong by the same factor all the while.
+// This is a Kalman filter of one number, measured every so many units. A witness that is not
+// trusted tells nothing of its scale, unless it is wrong by the same factor all the time.
 void Witness::LearnScale(double come, double moved, double trust) {
   told_ += moved;
   came_ += come;
