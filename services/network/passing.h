@@ -9,30 +9,30 @@
 
 namespace trailcast::network {
 
-// A route that passes at a place of another, or at one of its own again, as a joint says.
+// This is a route that passes at a place of another, or again at a place of its own, by a junction.
 struct Passing {
-  Place at{};  // on it
+  Place at{};  // place on the passing route
   Joint joint{};
-  std::optional<double> confidence{};  // of a joint that is only proposed
+  std::optional<double> confidence{};  // set if the junction is only proposed
   bool operator==(const Passing&) const = default;
 };
 
 struct Passings {
-  Place place{};  // that was asked about
+  Place place{};  // the place of the question
   std::vector<Passing> routes{};
   bool operator==(const Passings&) const = default;
 };
 
-// The question which routes pass there: "passing GOAL" (words.h).
+// Returns the question which routes pass there: "passing GOAL" (words.h).
 [[nodiscard]] std::string WhatPasses(std::string_view goal);
-// The goal, whatever it is; nothing for another question.
+// Returns the goal without checking it, or nothing for another question.
 [[nodiscard]] std::optional<std::string> ParseWhatPasses(std::string_view words);
 
-// Its answer: "at PLACE", and a line for each, "passes PLACE join ..", or "passes PLACE proposed
-// join .. confidence F".
+// Returns a line of the answer: "at PLACE", and for each route "passes PLACE join .." or "passes
+// PLACE proposed join .. confidence F".
 [[nodiscard]] std::string AtPlace(const Place& place);
 [[nodiscard]] std::string ToText(const Passing& passing);
-// Lines that a later version may have are passed over.
+// Ignores lines that a later version may have.
 [[nodiscard]] Passings ParsePassings(const std::vector<std::string>& lines);
 
 }  // namespace trailcast::network

@@ -11,30 +11,32 @@
 
 namespace trailcast::network {
 
-// What an operator changes, in words:
-//   join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]   one may change over from the
-//                                                                   first to the second; both: and
-//                                                                   back; how the second lies there
-//   part PLACE PLACE                                                no more, neither way
-//   close ROUTE [FROM..TO]     nobody is sent along it
+// These are the words by which an operator changes the network:
+//   join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]
+//                              adds a junction from the first to the second, and back with "both";
+//                              the rest says how the second lies there
+//   part PLACE PLACE           removes the junction, in both directions
+//   close ROUTE [FROM..TO]     robots are not sent along it
 //   open ROUTE [FROM..TO]
-//   back ROUTE [FROM..TO]      robots may be sent backwards along it, too, one at a time: it is
+//   back ROUTE [FROM..TO]      allows reverse driving there, one robot at a time: it is
 //                              narrow there from now on
-//   ahead ROUTE [FROM..TO]     no more
-//   limit ROUTE [FROM..TO] [speed F] [cost F]   F times the taught speed at most; a metre counts as
-//                                               F; neither: no limit any more
-//   narrow ROUTE FROM..TO [ROUTE FROM..TO ...]   robots cannot pass each other there; the parts are
-//                                                one place, which several routes lead through
-//   wide ROUTE [FROM..TO]      they can: of each narrow place of which a part lies there
-//   vacate ROUTE [FROM..TO]    whoever has such a place is not in it any more
-//   name NAME PLACE            it is called so; whatever was called so no longer is
+//   ahead ROUTE [FROM..TO]     forbids it again
+//   limit ROUTE [FROM..TO] [speed F] [cost F]
+//                              limits speed to F times the taught one; a metre costs as F; neither
+//                              removes the limit
+//   narrow ROUTE FROM..TO [ROUTE FROM..TO ...]
+//                              robots cannot pass each other there; the parts are one zone, which
+//                              several routes lead through
+//   wide ROUTE [FROM..TO]      removes each narrow place that has a part there
+//   vacate ROUTE [FROM..TO]    releases such a place by force from the robot that holds it
+//   name NAME PLACE            names a place; the name moves if another place had it
 //   forget NAME
-//   confirm PLACE PLACE        the joint that the server proposes there is made
-//   confirm all [above F]      all that it proposes, or that are so sure
-//   refuse PLACE PLACE         it is not made, and not proposed again
+//   confirm PLACE PLACE        makes the junction that the server proposes there
+//   confirm all [above F]      makes all proposed ones, or those of at least this confidence
+//   refuse PLACE PLACE         drops the proposal, and does not make it again
 //   refuse all [below F]
-// A PLACE is ROUTE@METRES, a ROUTE a name or id, with @REVISION behind it where that is not the one
-// that is followed; FROM..TO metres along it, either may be missing.
+// A PLACE is ROUTE@METRES. A ROUTE is a name or id, with @REVISION behind it unless it is the
+// followed one. FROM..TO is in metres along it, and either may be missing.
 struct Edit {
   enum class Kind {
     kJoin,
@@ -53,76 +55,78 @@ struct Edit {
     kRefuse
   };
   Kind kind = Kind::kJoin;
-  Joint joint{};          // of kJoin and kPart; of kConfirm and kRefuse, but for `all`
-  Condition condition{};  // of kClose, kOpen, kBack, kAhead and kLimit; of kWide and kVacate where
-                          // that is
-  Lane lane{};            // of kNarrow
-  NamedPlace named{};     // of kName; of kForget its name alone
+  Joint joint{};  // of kJoin and kPart; of kConfirm and kRefuse without `all`
+  // of kClose, kOpen, kBack, kAhead and kLimit; of kWide and kVacate the section
+  Condition condition{};
+  Lane lane{};         // of kNarrow
+  NamedPlace named{};  // of kName; only the name of kForget
   struct Sure {
     double least = 0.0;
     double most = 1.0;
   };
-  std::optional<Sure> all{};  // of kConfirm and kRefuse: whatever is so sure, not one joint
+  std::optional<Sure> all{};  // of kConfirm and kRefuse: the bound, in place of one junction
 };
 
-// A joint that a server has found by what scouts saw, and nobody has confirmed.
+// This is a junction that a server has found by what scouts saw, and that no operator has
+// confirmed.
 struct Proposal {
   Joint joint{};
   double confidence = 0.0;  // 0.5 to 1
   bool operator==(const Proposal&) const = default;
 };
 
-// A stretch where robots lost their path lately, and ways are longer for it.
+// This is a section where robots lost their path lately, so that paths over it cost more.
 struct LostStretch {
   std::string route{};
   double from_m = 0.0;
   double to_m = 0.0;    // above from_m
-  double passed = 0.0;  // times; what is long ago counts in part
-  double lost = 0.0;    // of these
-  double cost = 1.0;    // a metre counts as so many
+  double passed = 0.0;  // times; long ago counts in part
+  double lost = 0.0;    // number of these
+  double cost = 1.0;    // cost of a metre in metres
   bool operator==(const LostStretch&) const = default;
 };
 
-// Of a condition that ends where its route does.
+// This is the end of a condition that ends where its route does.
 inline constexpr double kToTheEnd_m = 1e7;
 
-// kInvalidArgument, with the word that was not understood and what was expected.
+// Returns kInvalidArgument with the word that was not understood and what was expected.
 [[nodiscard]] Result<Edit> ParseEdit(std::string_view words);
 
-// A line of what a server lists: a route that it names, "route ROUTE METRES", what is so, as the
-// edit that brings it about, what it proposes, or where robots were lost. Of a line that a later
-// version may have, nothing.
+// This is a line of what a server lists: a route that it names, "route ROUTE METRES"; what holds,
+// as the edit that brings it about; what it proposes; or where robots were lost. It is empty for a
+// line that a later version may have.
 struct Listed {
-  bool used = true;              // false: of a revision that robots do not follow
-  std::optional<Route> route{};  // its name and length
+  bool used = true;              // false if robots do not follow its revision
+  std::optional<Route> route{};  // with its name and length
   std::optional<Edit> edit{};
-  std::optional<Proposal> proposal{};   // "proposed join PLACE PLACE .. confidence F"
-  std::optional<LostStretch> lost{};    // "lost ROUTE FROM..TO N of M cost F"
-  std::vector<std::string> taken_by{};  // of a narrow place, "narrow .., taken by robot1 robot2"
+  std::optional<Proposal> proposal{};  // "proposed join PLACE PLACE .. confidence F"
+  std::optional<LostStretch> lost{};   // "lost ROUTE FROM..TO N of M cost F"
+  // robots in a narrow place: "narrow .., taken by robot1 robot2"
+  std::vector<std::string> taken_by{};
 };
 [[nodiscard]] Listed ParseListed(std::string_view line);
-// Before an edit that is not used.
+// This stands before an edit that is not used.
 inline constexpr std::string_view kUnused = "unused ";
 inline constexpr std::string_view kTakenBy = ", taken by ";
 
-// A PLACE, or what one is called: then `name` alone is set.
+// This is a PLACE, or a place's name: then only `name` is set.
 struct Goal {
   std::string name{};
   Place place{};
   bool operator==(const Goal&) const = default;
 };
-// A name is up to 64 bytes without blanks and '@'.
+// A name has 1 to 64 bytes without blanks and '@'.
 [[nodiscard]] Result<Goal> ParseGoal(std::string_view word);
 
-// "way FROM TO": which way leads there, from a goal or, before one of that name, from where a robot
-// last said that it stands.
+// "way FROM TO" asks for the path from one place to another. A robot's name in FROM stands for
+// where it last reported to be, and comes before a place of that name.
 struct Question {
   Goal from{};
   Goal to{};
 };
 [[nodiscard]] Result<Question> ParseQuestion(std::string_view words);
 
-// "hall@12", "hall@2@12".
+// Parses "hall@12" or "hall@2@12".
 [[nodiscard]] Result<Place> ParsePlace(std::string_view word);
 [[nodiscard]] std::string ToText(const Place& place);
 [[nodiscard]] std::string ToText(const Route& route);       // "route .."
@@ -133,11 +137,11 @@ struct Question {
 [[nodiscard]] std::string ToText(const Proposal& proposal);  // "proposed join .."
 [[nodiscard]] std::string ToText(const Lane& lane);          // "narrow .."
 [[nodiscard]] std::string ToText(const LostStretch& lost);   // "lost .."
-// Says for people: "lost hall 5..10 2 of 7 times lately, a metre counts as 1.9".
+// Returns text for people: "lost hall 5..10 2 of 7 times lately, a metre counts as 1.9".
 [[nodiscard]] std::string Describe(const LostStretch& lost);
 
-// What holds after such an edit: of one kind, a closed stretch, one that is driven backwards, too,
-// or a limit, one at each place.
+// Returns the conditions that hold after such an edit. Each place has at
+// most one of each kind (closed, backwards, or limited).
 [[nodiscard]] std::vector<Condition> Amended(std::vector<Condition> conditions, const Edit& edit);
 
 }  // namespace trailcast::network

@@ -18,13 +18,13 @@ constexpr std::string_view kChanged = "changed ";
 constexpr std::string_view kKept = "kept since ";
 constexpr std::string_view kUnknown = "-";
 
-// What is behind `before` as a number; nothing for another line.
+// Returns the number behind `before`, or nothing for another line.
 std::optional<std::int64_t> NumberBehind(std::string_view before, std::string_view line) {
   if (!line.starts_with(before)) return std::nullopt;
   return ParseNumber<std::int64_t>(line.substr(before.size()));
 }
 
-// Up to the next blank, which goes with it.
+// Takes the word up to the next blank, and removes the blank too.
 std::string_view TakeWord(std::string_view& rest) {
   const std::string_view word = rest.substr(0, rest.find(' '));
   rest.remove_prefix(std::min(word.size() + 1, rest.size()));
@@ -40,11 +40,11 @@ std::optional<Change> ParseChange(std::string_view line) {
   return Change{*at_unix_ms, by == kUnknown ? "" : std::string(by), std::string(line)};
 }
 
-// Before what was changed of a revision, "hall@3".
+// These stand before a changed revision, "hall@3".
 constexpr std::array<std::string_view, 7> kOfRevisions = {
     "stored", "activated", "retired", "deleted", "tagged", "untagged", "described"};
 
-// "renamed hall to aisle".
+// Parses "renamed hall to aisle".
 std::optional<std::pair<std::string, std::string>> ParseRenaming(std::string_view what) {
   if (TakeWord(what) != "renamed") return std::nullopt;
   std::string before(TakeWord(what));
@@ -59,7 +59,7 @@ std::vector<std::string> RoutesIn(const Edit& edit) {
   return routes;
 }
 
-// As it says them, revisions and all.
+// Returns the routes with their revisions, as the text has them.
 std::vector<std::string> RoutesIn(std::string_view what) {
   if (const auto edit = ParseEdit(what)) return RoutesIn(*edit);
   if (const auto renaming = ParseRenaming(what)) return {renaming->second};

@@ -7,17 +7,17 @@
 namespace trailcast::network {
 namespace {
 
-// Of a way, in metres from its beginning, what is of one lane.
+// This is the part of a path that is within one zone, in metres from the path's beginning.
 struct Passage {
   double begin_m = 0.0;
-  double end_m = 0.0;  // with its room
+  double end_m = 0.0;  // includes its room
   std::size_t lane = 0;
 };
 
-// A part of a way that is of one route without a gap.
+// This is a part of a path that stays on one route without a gap.
 struct Run {
   Stretch stretch{};
-  double begin_m = 0.0;  // from the way's beginning
+  double begin_m = 0.0;  // from the path's beginning
 };
 
 std::vector<Run> RunsOf(std::span<const Stretch> way) {
@@ -34,13 +34,13 @@ std::vector<Run> RunsOf(std::span<const Stretch> way) {
   return runs;
 }
 
-// In metres from a stretch's beginning, of which it may be a part.
+// This is a range in metres from a section's beginning.
 struct Through {
   double enters_m = 0.0;
   double leaves_m = 0.0;
 };
 
-// Nothing where the stretch ends before the part, or begins so far beyond it.
+// Returns nothing if the section ends before the part, or begins more than `beyond_m` behind it.
 std::optional<Through> ThroughOf(const Part& part, const Stretch& stretch, double beyond_m) {
   if (part.route != stretch.route) return std::nullopt;
   const auto [enters_m, leaves_m] =
@@ -49,13 +49,14 @@ std::optional<Through> ThroughOf(const Part& part, const Stretch& stretch, doubl
   return Through{enters_m, leaves_m};
 }
 
-// The second begins where the first ends, and drives back.
+// Tells that the second begins where the first ends, and drives back.
 bool TurnsBack(const Stretch& before, const Stretch& next) {
   return before.route == next.route && before.to_m == next.from_m && next.turn_rad == 0.0 &&
          before.backwards() != next.backwards();
 }
 
-// In the order in which the way comes to them; without those that it begins in or behind.
+// Returns the zones in the order in which the path meets them, without those that it begins in or
+// behind.
 std::vector<Passage> PassagesOf(std::span<const Stretch> way, std::span<const Lane> lanes) {
   std::vector<Passage> passages;
   const std::vector<Run> runs = RunsOf(way);
@@ -75,7 +76,7 @@ std::vector<Passage> PassagesOf(std::span<const Stretch> way, std::span<const La
           continue;
         }
         double begin_m = std::max(0.0, through->enters_m - kBeforeLane_m);
-        // Before the route's first metre nobody can come in between; on it somebody could.
+        // No robot can come in between before the route's first metre; on it one could.
         if (run.begin_m > 0.0 && begin_m < kWaitingRoom_m) begin_m = 0.0;
         passages.push_back(
             {run.begin_m + begin_m, run.begin_m + through->leaves_m + kRoomBeyondLane_m, i});
@@ -87,7 +88,7 @@ std::vector<Passage> PassagesOf(std::span<const Stretch> way, std::span<const La
   return passages;
 }
 
-// The stretches from there on go to the second.
+// Moves the sections from there on to the second.
 void Cut(std::vector<Stretch>& stretches, double at_m, std::vector<Stretch>& rest) {
   std::vector<Stretch> before;
   for (const Stretch& stretch : stretches) {
@@ -129,7 +130,7 @@ std::vector<Leg> LegsOf(std::span<const Stretch> way, std::span<const Lane> lane
     end_m = std::max(end_m, passage.end_m);
     legs.back().through_m = std::min(end_m - cut_m, LengthOf(legs.back().stretches));
   }
-  // Of each but the last, what a later cut has left.
+  // A later cut shortens each leg but the last.
   for (Leg& leg : legs) leg.through_m = std::min(leg.through_m, LengthOf(leg.stretches));
   return legs;
 }

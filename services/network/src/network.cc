@@ -12,11 +12,11 @@
 namespace trailcast::network {
 namespace {
 
-// A robot that has arrived may say that it stands a little beyond the end.
+// A robot that has arrived may report a place a little beyond the end.
 constexpr double kBeyondEnd_m = 0.5;
 constexpr double kNever = std::numeric_limits<double>::infinity();
-// What is closed is searched last, so that one search tells what way there is, and what bars it.
-// Above what any way costs.
+// This is above the cost of any path, so that closed parts are searched last: one search finds the
+// path that there is, and what blocks it.
 constexpr double kClosedCosts = 1e15;
 
 }  // namespace
@@ -36,7 +36,7 @@ double LengthOf(std::span<const Stretch> stretches) {
   return length_m;
 }
 
-// Driven last to first, as a search finds them; without what has no length.
+// This collects drives from the last to the first, as a search finds them, without empty ones.
 class Network::Drives {
  public:
   void Prepend(Index route, double from_m, double to_m) {
@@ -61,7 +61,7 @@ class Network::Drives {
 
  private:
   std::vector<Drive> drives_;
-  bool joint_ = false;  // before the last
+  bool joint_ = false;  // a junction comes before the last one
 };
 
 Result<Network> Network::Build(std::vector<Route> routes, const std::vector<Joint>& joints,
@@ -175,13 +175,13 @@ double Network::Costs(Index node, double from_m, double to_m, bool though_closed
   return (of.closed && !though_closed ? kClosedCosts : 0.0) + (to_m - from_m) * of.cost / of.speed;
 }
 
-// Dijkstra's, from node to node; that of the goal is left on the way to it.
+// This is Dijkstra's algorithm, from node to node. The goal is reached on the way from its node.
 Network::Found Network::Search(const Spot& from, const Spot& to, const Open& open) const {
   constexpr Index kNone = std::numeric_limits<Index>::max();
   struct Reached {
     double cost = kNever;
     Index before = kNone;  // the node before it
-    Index leap = kNone;    // by which it is reached from there
+    Index leap = kNone;    // junction that led here
   };
   std::vector<Reached> reached(nodes_.size());
   using Due = std::pair<double, Index>;
@@ -202,7 +202,7 @@ Network::Found Network::Search(const Spot& from, const Spot& to, const Open& ope
     return kBackwardsCosts * Costs(node, to_m, from_m, node <= begin && is_open(node));
   };
   double best = kNever;
-  Index last = kNone;  // the node before the goal; kNone: one drives there straight
+  Index last = kNone;  // the node before the goal; kNone if one drives there straight
   if (begin == goal && from.along_m <= to.along_m) {
     best = ahead(begin, from.along_m, to.along_m);
   } else if (begin == goal && nodes_[begin].backed) {

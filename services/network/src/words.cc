@@ -31,7 +31,7 @@ constexpr std::string_view kProposed = "proposed ";
 constexpr std::string_view kConfidence = " confidence ";
 constexpr std::string_view kLost = "lost ";
 
-// To the centimetre.
+// Writes metres to the centimetre.
 std::string Metres(double metres) {
   std::string text = fmt::format("{:.2f}", metres);
   text.erase(text.find_last_not_of('0') + 1);
@@ -129,7 +129,7 @@ Result<Edit> TakeName(Words& words, Edit::Kind kind) {
   return edit;
 }
 
-// PLACE PLACE
+// Parses PLACE PLACE.
 Result<Edit> TakePlaces(Words& words, Edit::Kind kind) {
   auto joint = TakeJoint(words);
   if (!joint) return tl::unexpected(joint.error());
@@ -137,7 +137,7 @@ Result<Edit> TakePlaces(Words& words, Edit::Kind kind) {
   return Edit{.kind = kind, .joint = *std::move(joint)};
 }
 
-// PLACE PLACE, or "all" with a bound
+// Parses PLACE PLACE, or "all" with a bound.
 Result<Edit> TakeVerdict(Words& words, Edit::Kind kind) {
   if (!words.TakeIf("all")) return TakePlaces(words, kind);
   Edit edit{.kind = kind, .all = Edit::Sure{}};
@@ -155,7 +155,7 @@ Result<Edit> TakeVerdict(Words& words, Edit::Kind kind) {
   return edit;
 }
 
-// ROUTE [FROM..TO]
+// Parses ROUTE [FROM..TO].
 Result<Condition> TakeStretch(Words& words) {
   Condition stretch{.route = std::string(words.Take()), .to_m = kToTheEnd_m};
   if (stretch.route.empty()) return Wrong("", "a route, by its name or id");
@@ -173,7 +173,7 @@ Result<Condition> TakeStretch(Words& words) {
   return stretch;
 }
 
-// ROUTE FROM..TO [ROUTE FROM..TO ...]
+// Parses ROUTE FROM..TO [ROUTE FROM..TO ...].
 Result<Lane> TakeLane(Words& words) {
   Lane lane;
   do {
@@ -264,7 +264,7 @@ std::optional<Proposal> ParseProposal(std::string_view text) {
   return Proposal{std::move(edit->joint), *confidence};
 }
 
-// ROUTE FROM..TO N of M cost F
+// Parses ROUTE FROM..TO N of M cost F.
 std::optional<LostStretch> ParseLost(std::string_view text) {
   Words words(text);
   auto stretch = TakeStretch(words);
@@ -400,7 +400,7 @@ std::string Describe(const LostStretch& lost) {
 }
 
 std::string ToText(const Proposal& proposal) {
-  // No surer than it is.
+  // The text must not claim more confidence than there is.
   constexpr double kRounding = 1e-6;
   const double confidence = std::floor(100.0 * proposal.confidence + kRounding) / 100.0;
   return fmt::format("{}{}{}{:.2f}", kProposed, ToText(proposal.joint), kConfidence, confidence);
