@@ -10,17 +10,18 @@
 
 namespace trailcast::agent {
 
-// Tells when a scout's robot is where an earlier teaching by the same camera ended: its last
+// This tells when a scout's robot is where an earlier teaching by the same camera ended: its last
 // segment's features are where they were last seen, as large as they were, and the view as a whole
-// is recognised. No clock, socket, lock or disk.
+// is recognised. It uses no clock, socket, lock or disk.
 class EndFinder {
  public:
-  // `last`: of the teaching; with features, or its end is never found. `width_px`: the route's.
+  // `last` is the last segment of the teaching. Without features its end is never found. `width_px`
+  // is the route's.
   EndFinder(route::Segment last, int width_px, const vision::IntakeOptions& intake = {});
 
-  // True: this picture was taken there, give or take what shows in no picture.
+  // Returns true if this picture was taken there, as far as pictures can show.
   [[nodiscard]] bool Look(const image::GrayImage& picture);
-  // For people: the most that was found of them in one picture.
+  // Returns for people the most features that one picture had.
   [[nodiscard]] std::string MostSeen() const;
 
  private:

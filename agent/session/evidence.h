@@ -2,12 +2,12 @@
 
 namespace trailcast::agent {
 
-// The evidence that carries a robot along its route in one frame.
+// This is the evidence that carries a robot along its route in one frame.
 enum class Evidence {
-  kNothing,   // it stands
+  kNothing,   // the robot stands
   kFeatures,  // the segment's features, tracked
   kViews,     // key views that are recognised
-  kMotion,    // neither: how it is measured, or told, to move
+  kMotion,    // neither: by its motion, as measured or as commanded
 };
 
 }  // namespace trailcast::agent

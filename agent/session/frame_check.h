@@ -7,11 +7,11 @@
 
 namespace trailcast::agent {
 
-// What a session relies on from one observation to the next.
+// This checks what a session relies on from one observation to the next.
 class FrameCheck {
  public:
-  // kInvalidArgument for a frame that is empty or too small, one of another size than the first, or
-  // odometry that appears or vanishes midway.
+  // Returns kInvalidArgument for a frame that is empty or too small, for one of another size than
+  // the first, or for odometry that appears or vanishes midway.
   [[nodiscard]] Result<void> Check(const Observation& observation);
 
  private:

@@ -15,54 +15,55 @@
 
 namespace trailcast::agent {
 
-// Finds a segment's stored features in the follower's picture, whatever its camera, and learns how
-// the two cameras' magnifications compare.
+// This finds a segment's stored features in the follower's picture, whatever its camera, and learns
+// how the two cameras' magnifications compare.
 class HandOver {
  public:
-  // `any_camera`: look for other magnifications too; false for the paper's method, which takes the
-  // cameras to be alike.
+  // `any_camera` searches other magnifications too. It is false for the paper's method, which
+  // assumes equal cameras.
   HandOver(bool any_camera, int scout_width_px)
       : any_camera_(any_camera), scout_width_px_(scout_width_px) {}
 
-  // How the scout's picture maps onto this one by what is recognised, as a function that is called
-  // only where the features are not found as they were expected; nothing: nothing is recognised.
+  // This returns how the scout's picture maps onto this one by what is recognised, or nothing if
+  // nothing is. It is called only if the features are not found where they were expected.
   using Recognise = std::function<std::optional<vision::ViewFit>()>;
 
-  // The features of the segment that `follower` has just begun, in the follower's pixels. Tells the
-  // follower the magnification it saw.
+  // Returns the features of the segment that `follower` has just begun, in the follower's pixels,
+  // and tells the follower the magnification it saw.
   [[nodiscard]] std::vector<route::TrackedFeature> ToSegment(const image::GrayImage& frame,
                                                              replay::Follower& follower,
                                                              const Recognise& recognise);
 
-  // A segment's features as a robot sees them that stands at its fraction `s`; without a
-  // `magnification`, at any that finds them. `grown`: their patterns as much larger as the features
-  // are there; finds them late in a segment before a near wall, and elsewhere tells the place less
-  // exactly.
+  // Returns a segment's features as a robot at its fraction `s` sees them. Without a
+  // `magnification` it tries all. `grown` scales their patterns to the features' size there; this
+  // finds them late in a segment before a near wall, and elsewhere tells the place less exactly.
   [[nodiscard]] vision::FindResult SeeFrom(const image::GrayImage& frame,
                                            const route::Segment& segment, double s,
                                            std::optional<double> magnification, bool grown) const;
-  // What was seen so counts as the hand-over to the segment that `follower` has just begun.
+  // Takes `seen` as the hand-over to the segment that `follower` has just begun.
   void TakeUp(const vision::FindResult& seen, replay::Follower& follower);
 
-  // The same features once more, when tracking has lost many.
+  // Finds the same features once more after tracking has lost many.
   [[nodiscard]] std::vector<route::TrackedFeature> Again(const image::GrayImage& frame,
                                                          const replay::Follower& follower) const;
 
-  // The features of any segment, for a robot that lost its own, or never had any: seen from its
-  // fraction `s`, as they are expected by the follower's magnification, or by what is recognised.
-  // Tells the follower the magnification that it saw. Nothing if they are too few to go on with.
+  // Returns the features of any segment, seen from its fraction `s`, for a robot that lost its own
+  // or never had any. They are expected by the follower's magnification, or by what is recognised.
+  // It tells the follower the magnification that it saw. It returns nothing if they are too few to
+  // go on with.
   [[nodiscard]] std::vector<route::TrackedFeature> Recover(
       const image::GrayImage& frame, replay::Follower& follower, const route::Segment& segment,
       double s, const std::optional<vision::ViewFit>& recognised);
 
-  // Of a run that goes on: what the one before had learnt.
+  // Takes over what an earlier run had learnt.
   void KnowMagnification(double magnification);
-  // What all of the run so far has recognised: magnifications far from it are not believed.
+  // Sets the magnification that the whole run so far has recognised. Magnifications far from it are
+  // not believed.
   void SetRunMagnification(double magnification) { recognised_magnification_ = magnification; }
 
-  // Whether the last ToSegment found them by a search of the whole picture.
+  // Tells that the last ToSegment found them by a search of the whole picture.
   [[nodiscard]] bool last_was_wide() const { return last_was_wide_; }
-  // Share of stored features found, mean over the hand-overs so far.
+  // Returns the share of stored features that were found, as a mean over the hand-overs so far.
   [[nodiscard]] double found_share() const { return count_ > 0 ? share_sum_ / count_ : 0.0; }
   [[nodiscard]] int count() const { return count_; }
 

@@ -11,23 +11,23 @@
 
 namespace trailcast::agent {
 
-// What a robot senses at one instant: one camera frame, and wheel odometry where there is any.
+// This is what a robot senses at one instant: one camera frame, and wheel odometry if there is any.
 struct Observation {
   SensorTime stamp{0};
   image::GrayImage image;
   std::optional<motion::Pose2> odometry;  // in the odometry's own frame
-  // How far the robot may have driven and turned since the last frame, one way or the other,
-  // besides what odometry says: where that has jumped, or was silent.
+  // The robot may have driven and turned this far since the last frame, in either direction, beside
+  // what odometry says, because odometry has jumped or was silent.
   motion::OdometryIncrement unknown{};
-  std::vector<motion::ImuSample> imu{};  // since the last frame, of a robot that has one
-  // Where something stands, by its scanner's newest look, seen from its axle: x ahead, y left;
-  // nothing: it has no scanner.
+  std::vector<motion::ImuSample> imu{};  // since the last frame, of a robot with an IMU
+  // This is where obstacles stand by its scanner's newest scan, in the axle's frame: x ahead, y
+  // left. It is empty without a scanner.
   std::optional<std::vector<Eigen::Vector2d>> stands{};
-  // The base was told to drive so since the last frame; nothing: commands move nobody (a
-  // recording).
+  // This is the command to the base since the last frame. It is empty if commands move no robot, as
+  // in a recording.
   std::optional<motion::VelocityCommand> told{};
-  // What somebody else was last heard to tell the base; nothing: nobody was, or long ago, or the
-  // device was not asked to listen.
+  // This is the last command to the base that was heard from another program. It is empty if there
+  // was none, or only long ago, or if the device was not asked to listen.
   std::optional<motion::VelocityCommand> heard{};
 };
 

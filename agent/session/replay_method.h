@@ -15,16 +15,16 @@ namespace trailcast::agent {
 
 enum class ReplayMethod {
   kDefault,   // with what this project adds
-  kPaper,     // Chen & Birchfield 2009 as printed
+  kPaper,     // Chen & Birchfield 2009, as printed
   kIcra2006,  // the paper's first version: vision alone, bang-bang, no roll compensation
 };
 
 [[nodiscard]] const char* ToString(ReplayMethod method);
 [[nodiscard]] const std::vector<std::string>& ReplayMethodNames();
-// kNotFound lists the names there are.
+// Returns kNotFound with the list of names if there is no such method.
 [[nodiscard]] Result<ReplayMethod> FindReplayMethod(const std::string& name);
 
-// The methods as printed; what this project adds to teaching and following is left out.
+// Tells that the method is as printed, without what this project adds to teaching and following.
 [[nodiscard]] inline bool AsPrinted(ReplayMethod method) {
   return method != ReplayMethod::kDefault;
 }
@@ -32,42 +32,42 @@ enum class ReplayMethod {
   return method != ReplayMethod::kIcra2006;
 }
 
-// A robot's own focal length, whatever the size of its pictures.
+// This is a robot's own focal length, whatever the size of its pictures.
 struct OwnLens {
-  double focal_share = 0.0;  // of the picture's width
+  double focal_share = 0.0;  // share of the picture's width
   double sigma = 0.0;        // relative
-  // How it hangs, as it was found to, instead of ReplayMethodOptions::intake's.
+  // This is the roll of its mount, as it was found, in place of ReplayMethodOptions::intake's.
   std::optional<double> roll_deg = {};
 };
 
 struct ReplayMethodOptions {
   ReplayMethod method = ReplayMethod::kDefault;
   motion::VelocityLimits limits{1.0, 0.8};
-  double speed_factor = 1.0;  // times the taught speed
-  // The robot may be anywhere on the route at first: it stands until it knows where. Otherwise it
-  // is at the route's start, or where it was left, and anywhere else only if it may be: a robot
-  // that is neither here nor there looks along the whole route then.
+  double speed_factor = 1.0;  // in multiples of the taught speed
+  // The robot may be anywhere on the route at first, so it stands until it knows where. Otherwise
+  // it is at the route's start, or where it was left, and looks along the whole route only if it is
+  // at neither.
   bool anywhere = false;
   bool else_anywhere = false;
   vision::IntakeOptions intake = {};
-  // From the axle that the robot turns about ahead to its camera, more than on the scout; nothing:
-  // not told, and learnt in bends.
+  // This is how much further ahead of the turning axle its camera is than the scout's. It is learnt
+  // in bends if it is not given.
   std::optional<double> camera_ahead_m = {};
-  // What the last run has learnt of its camera.
+  // This is what the last run has learnt of its camera.
   std::optional<OwnLens> lens = {};
-  // Round what stands on the path, by the default method with odometry.
+  // These are for passing obstacles on the path, by the default method with odometry.
   replay::PassingOptions passing = {};
-  // How far to either side a robot that has lost its path from view turns on the spot to find it
-  // again, before it gives up; by the default method with odometry. 0: it stands.
+  // A robot that has lost its path from view turns this far to either side on the spot to find it
+  // again, before it gives up; by the default method with odometry. With 0 it stands.
   double look_around_rad = 0.0;
-  // To note what of the route is found, missed, and seen besides, for a refreshed one: of its key
-  // views, and by the default method with odometry of its features. Changes nothing of how it
-  // follows.
+  // The run notes which key views of the route, and by the default method with odometry which
+  // features, are found, missed, and seen besides, for a refreshed revision. This changes nothing
+  // of how it follows.
   bool take_experience = false;
 };
 
 // Without odometry, in the route or on the robot, the funnel lane alone steers by any method.
-// `known`: the magnification is an earlier run's, and not what the pictures' widths say.
+// `known` says that the magnification comes from an earlier run, and not from the pictures' widths.
 [[nodiscard]] std::unique_ptr<replay::Follower> MakeFollower(const ReplayMethodOptions& options,
                                                              bool by_odometry, int scout_width_px,
                                                              double magnification, bool known);

@@ -15,46 +15,47 @@
 
 namespace trailcast::agent {
 
-// Frames and odometry in, velocity commands out: vision's tracker and finder feeding replay's
-// follower. Segments may be added while driving. Touches no socket, lock, disk or clock.
+// This takes frames and odometry, and returns velocity commands: vision's tracker and finder feed
+// replay's follower. Segments may be added while driving. It touches no socket, lock, disk or
+// clock.
 class ReplaySession {
  public:
-  // `route` gives the size of the scout's frames (vision::WorkingSize); its segment_count and state
-  // are not looked at.
+  // `route` gives the size of the scout's frames (vision::WorkingSize). Its segment_count and state
+  // are not used.
   ReplaySession(const ReplayMethodOptions& options, const route::RouteInfo& route);
   ~ReplaySession();
   ReplaySession(ReplaySession&&) noexcept;
   ReplaySession& operator=(ReplaySession&&) noexcept;
 
-  // In order from index 0; kInvalidArgument otherwise.
+  // Adds segments in order from index 0, and returns kInvalidArgument otherwise.
   [[nodiscard]] Result<void> AddSegment(route::Segment segment);
   // The last segment added is the route's last.
   void MarkComplete();
-  // Before the first frame: the robot may be where an earlier run has left it. It stands until it
-  // has found itself there, or at the route's start, and is kLost if it is at neither.
+  // Says before the first frame that the robot may be where an earlier run has left it. It stands
+  // until it has found itself there, or at the route's start, and is kLost if it is at neither.
   void GoOnFrom(const LeftAt& left);
-  // Metres of the route that are known.
+  // Returns the metres of the route that are known.
   [[nodiscard]] double known_m() const;
 
-  // A robot whose camera gives an empty frame, or one of another size than the first, stands and is
-  // told why. Error: odometry that appears or vanishes midway.
+  // A robot whose camera gives an empty frame, or one of another size than the first, stands, and
+  // the step has the reason. It is an error if odometry appears or vanishes midway.
   [[nodiscard]] Result<ReplayStep> Observe(const Observation& observation);
 
-  // A frame that a robot which stands need not look at, for those who look on.
+  // Passes a frame that a robot which stands need not examine, for observers of the run.
   void Pass(const Observation& observation);
 
-  // Of a run that has arrived, and was to take experience: what it met with, to refresh the route
-  // by. Once; nothing otherwise.
+  // Returns once what a run met, to refresh the route by, if the run has arrived and was to take
+  // experience.
   [[nodiscard]] std::optional<refresh::Visit> TakeVisit();
 
-  // What the run has learnt of the robot's camera, for the next one.
+  // Returns what the run has learnt of the robot's camera, for the next one.
   [[nodiscard]] std::optional<OwnLens> lens() const;
 
-  // The last frame that was observed, or passed, as the intake makes it. Valid until the next, and
-  // as long as that frame is; nullptr before the first.
+  // Returns the last frame that was observed or passed, as the intake makes it. It is valid until
+  // the next frame and as long as that frame is, and null before the first.
   [[nodiscard]] const image::GrayImage* picture() const;
-  // The features as of `step`, the last one that Observe returned: for those who draw them. None in
-  // a frame that was passed.
+  // Returns the features as of `step`, the last one that Observe returned, for drawing. A frame
+  // that was passed has none.
   [[nodiscard]] std::vector<replay::FeatureView> ViewFeatures(const ReplayStep& step) const;
 
  private:

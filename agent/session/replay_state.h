@@ -5,23 +5,23 @@
 namespace trailcast::agent {
 
 enum class ReplayState {
-  kWaiting,    // at the end of what is known of the route: standing until more comes
-  kYielding,   // behind another follower, as near as it may come: standing until that one goes on
-  kHeld,       // an operator has it stand: until one tells it to go on
-  kFollowing,  // by vision (and odometry, where there is any)
-  // Too few features: by odometry alone for a short way, slowly; standing, where the route's start
-  // has not been found and where something covers the view.
+  kWaiting,    // stands at the end of what is known of the route, until more comes
+  kYielding,   // stands as near behind another follower as it may come, until that one goes on
+  kHeld,       // stands until an operator resumes it
+  kFollowing,  // by vision, and by odometry if there is any
+  // It sees too few features. It goes on slowly by odometry alone for a short distance, or stands
+  // if the route's start has not been found or something covers the view.
   kBlind,
   kArrived,  // past the last milestone of a complete route
-  kLost,     // cannot go on: `reason` says why; the command is "stop"
+  kLost,     // it cannot go on, `reason` says why, and the command is "stop"
 };
 
 [[nodiscard]] const char* ToString(ReplayState state);
 
-// The robot stands on purpose, until others have done something.
+// Tells that the robot stands on purpose, until others have done something.
 [[nodiscard]] bool Waits(ReplayState state);
 
-// What a verdict is to those who watch the robot.
+// Returns what a verdict means to those who watch the robot.
 [[nodiscard]] ReplayState StateOf(Trust trust);
 
 }  // namespace trailcast::agent

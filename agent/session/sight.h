@@ -8,21 +8,21 @@
 
 namespace trailcast::agent {
 
-// How a segment's stored features were sought.
+// This is how a segment's stored features were sought.
 enum class SearchKind {
   kHandOver,     // at the segment's start
-  kLookedAgain,  // near by, because many were lost
-  kRecovered,    // far and wide and in the segments ahead, by a robot that had lost them all
+  kLookedAgain,  // nearby, because many were lost
+  kRecovered,    // over the whole picture and in the segments ahead, after all were lost
 };
 
-// A search that changed which features are followed.
+// This is a search that changed which features are followed.
 struct Search {
   SearchKind kind = SearchKind::kHandOver;
   SegmentIndex segment;
   int stored = 0;  // features that the segment has
   int found = 0;
   bool wide = false;      // over the whole picture, not only where they were expected
-  double length_m = 0.0;  // of the segment, as it was taught
+  double length_m = 0.0;  // length of the segment, as it was taught
   double speed_mps = 0.0;
 };
 
@@ -37,7 +37,7 @@ struct Search {
           segment.speed_mps()};
 }
 
-// What became of the segment's features in one frame.
+// This is the outcome of the segment's features in one frame.
 struct Sight {
   int stored = 0;  // features that the segment has
   vision::TrackLosses lost;

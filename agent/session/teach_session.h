@@ -19,64 +19,66 @@ namespace trailcast::agent {
 struct TeachOptions {
   vision::IntakeOptions intake;
   vision::FeatureTrackerOptions features;
-  // So many of a segment's features at least in its picture's middle, for followers with a narrower
-  // view. Not on routes without odometry: the funnel lane, by which alone they are followed, counts
-  // all features alike, and those in the middle say least of where to turn.
+  // A segment has at least this many features in the middle of its picture, for followers with a
+  // narrower view. This does not hold on routes without odometry: the funnel lane, the only way to
+  // follow them, counts all features alike, and those in the middle tell least of where to turn.
   int middle_features = 20;
   teach::SegmentRecorderOptions recorder;
   teach::KeyViewRecorderOptions key_views;
   teach::KeyViewRecorderOptions key_views_with_odometry =
       teach::KeyViewRecorderOptions::WithOdometry();
-  // Of pictures that are kept until a turn has told how the camera hangs, to be taught again if
-  // that is not as `intake` has it: 45 s of driving in pictures of 640 by 480 pixels, three minutes
-  // in those of 320 by 240. 0: what was handed out cannot be taken back.
+  // This bounds the pictures that are kept until a turn has told how the camera is mounted, to be
+  // taught again if that is not as `intake` says: 45 s of driving in pictures of 640 by 480 pixels,
+  // three minutes in those of 320 by 240. With 0 nothing that was handed out can be taken back.
   std::size_t most_kept_bytes = std::size_t{128} << 20U;
 };
 
-// The robot's turns have told that its camera hangs otherwise than it was said to.
+// The robot's turns have told that its camera is mounted otherwise than stated.
 struct TaughtAnew {
-  vision::IntakeOptions intake;  // as it does hang
+  vision::IntakeOptions intake;  // as it is mounted
   std::string text;              // one line for people
 };
 
 struct TeachStep {
   std::optional<route::Segment> finished;  // a segment that ended with this frame
   int features = 0;                        // still tracked in the current segment
-  double ahead_m = 0.0;                    // of the segment under way; 0 without odometry
-  bool too_few_features = false;           // nothing to hold on to in this frame (dark, blank)
-  bool reverse = false;                    // it is driven backwards, as followers will be
-  // All segments handed out so far are void: those from the first one on come again.
+  double ahead_m = 0.0;                    // length of the present segment; 0 without odometry
+  bool too_few_features = false;           // the frame is too dark or blank to track anything
+  bool reverse = false;                    // the robot drives backwards, as followers will
+  // All segments handed out so far are void, and come again from the first one on.
   std::optional<TaughtAnew> anew;
-  // Whether followers will recognise this place.
+  // This tells whether followers will recognise this place.
   teach::ViewWeakness weakness = teach::ViewWeakness::kNone;
 };
 
-// Frames and odometry in, segments out: vision's tracker feeding teach's segment recorder. The
-// robot's turns tell whether the camera hangs as the intake has it; if it does not, the drive is
-// taught again from its first frame on, while it goes on. Touches no socket, lock, disk or clock.
-// Not thread-safe.
+// This takes frames and odometry, and returns segments: vision's tracker feeds teach's segment
+// recorder. The robot's turns tell whether the camera is mounted as the intake says. If it is not,
+// the drive is taught again from its first frame on, while it goes on. It touches no socket, lock,
+// disk or clock, and is not thread-safe.
 class TeachSession {
  public:
   explicit TeachSession(const TeachOptions& options = {});
   ~TeachSession();
   TeachSession(TeachSession&&) noexcept;
 
-  // Errors: a frame of another size than the first; odometry that appears or vanishes midway; a
-  // camera that hangs otherwise, told too late to teach anew.
+  // It is an error if a frame has another size than the first, if odometry appears or vanishes
+  // midway, or if the camera is found to be mounted otherwise too late to teach anew.
   [[nodiscard]] Result<TeachStep> Observe(const Observation& observation);
-  // Of one frame more that waits to be taught again; nothing: none does. After each Observe, so
-  // that none will soon, and before Finish until none does.
+  // Teaches one more frame that waits to be taught again, or returns nothing if none does. Call it
+  // after each Observe, so that the queue empties, and before Finish until it is empty.
   [[nodiscard]] std::optional<TeachStep> CatchUp();
   [[nodiscard]] bool catching_up() const;
-  // Of the last step, counted as they were observed.
+  // This is the last step's frame, in the order of observation.
   [[nodiscard]] int frame() const { return frame_; }
-  // What was taught is as the camera hangs, as far as the robot's turns tell.
+  // Tells that what was taught fits the camera's mount, as far as the robot's turns tell.
   [[nodiscard]] bool turns_told() const { return !mount_; }
 
-  // Turned on the spot since the last segment: of a teaching that ends so this is not taught.
+  // Returns the turn on the spot since the last segment. A teaching that ends so does not include
+  // it.
   [[nodiscard]] double turned_rad() const;
 
-  // The segment under way, ended at the last frame; nothing if no feature or metre is in it.
+  // Returns the present segment, ended at the last frame, or nothing if no feature or metre is in
+  // it.
   [[nodiscard]] std::optional<route::Segment> Finish();
 
  private:

@@ -7,17 +7,17 @@
 namespace trailcast::agent {
 namespace {
 
-constexpr double kUsual = 0.2;  // a frame
-// Between two frames, by odometry; and by the picture, as a share of its width.
+constexpr double kUsual = 0.2;  // for each frame
+// These are between two frames, by odometry, and by the picture as a share of its width.
 constexpr double kStands_m = 1e-4;
 constexpr double kStands_rad = 1e-4;
 constexpr double kMoves_flow = 0.0015;
 constexpr double kFrozen_s = 0.3;
-// Features that tell flow; how far apart, as a share of the picture's width.
+// These are the features that tell flow, and their distance as a share of the picture's width.
 constexpr std::size_t kMostForFlow = 60;
 constexpr double kForFlowApart = 0.07;
 
-// How far most features moved between two frames, as a share of the picture's width.
+// Returns how far most features moved between two frames, as a share of the picture's width.
 std::optional<double> Flow(const std::vector<teach::MovedFeature>& features, int width_px) {
   std::vector<double> moved;
   for (const auto& [before, now] : features) {
@@ -29,7 +29,8 @@ std::optional<double> Flow(const std::vector<teach::MovedFeature>& features, int
   return *middle / width_px;
 }
 
-// The strong ones of a view, whose order is by strength; in pixels of a picture of that width.
+// Returns the strong features of a view, which are in order of strength, in pixels of a picture of
+// that width.
 std::vector<route::TrackedFeature> SpreadOf(const view::ViewTable& view, int width_px) {
   std::vector<route::TrackedFeature> spread;
   const double least_px = kForFlowApart * width_px;

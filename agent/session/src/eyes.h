@@ -19,62 +19,65 @@
 
 namespace trailcast::agent {
 
-// What one frame shows.
+// This is what one frame shows.
 struct Seen {
-  const image::GrayImage* frame = nullptr;  // as the intake makes it; until the next
-  // The same as its features are followed in it; the frame itself, or reduced.
+  const image::GrayImage* frame = nullptr;  // as the intake makes it; valid until the next
+  // This is the picture in which features are followed: the frame itself, or a reduced one.
   const image::GrayImage* followed_in = nullptr;
-  std::vector<route::TrackedFeature> features;  // those that are followed, where they are now there
-  // How far most moved, as a share of the width; 1 where they are too few to tell.
+  std::vector<route::TrackedFeature> features;  // the followed ones, at their present places there
+  // This is how far most features moved, as a share of the width, or 1 if they are too few.
   double flow = 0.0;
-  double usual_flow = 0.0;  // the same, lately, as far as it could be told
-  bool frozen = false;      // odometry tells that it stands, and what it sees moves all the while
-  // Since the last frame, by odometry, and by what the base was told; nothing: there is none.
+  double usual_flow = 0.0;  // lately, as far as it was known
+  bool frozen = false;      // odometry stands still while the picture keeps moving
+  // These are since the last frame, by odometry and by the commands to the base, as far as there
+  // are any.
   std::optional<motion::OdometryIncrement> measured;
   std::optional<motion::OdometryIncrement> told;
-  // The better one of these,
+  // This is the better one of these.
   std::optional<motion::OdometryIncrement> driven;
-  motion::OdometryIncrement unknown{};                   // and besides, as in Observation
-  const std::vector<Eigen::Vector2d>* stands = nullptr;  // as in Observation; until the next
-  double dt_s = 0.0;                                     // the same
-  double looked_s = 0.0;  // the same, and no longer than kLongestFrame_s
+  motion::OdometryIncrement unknown{};  // see Observation::unknown
+  // see Observation::stands; valid until the next
+  const std::vector<Eigen::Vector2d>* stands = nullptr;
+  double dt_s = 0.0;      // since the last frame
+  double looked_s = 0.0;  // dt_s, but no longer than kLongestFrame_s
 };
 
-// What features are followed for.
+// This is why features are followed.
 enum class FollowedFor {
   kPlace,  // they are a segment's, and tell where the robot is
-  kFlow,   // any, in a reduced picture: they tell whether it moves
+  kFlow,   // any features of a reduced picture tell whether the robot moves
 };
 
-// A picture's first station: checked, taken in, its features tracked.
+// This is the front end, a picture's first station: it checks the picture, takes it in, and tracks
+// its features.
 class Eyes {
  public:
-  // `by_commands`: what the base is told counts as motion.
+  // With `by_commands` the commands to the base count as motion.
   Eyes(const vision::IntakeOptions& intake, bool by_commands)
       : options_(intake), intake_(intake), by_commands_(by_commands) {}
 
-  // From the next frame on pictures are taken in so; what was tracked is lost.
+  // Changes how pictures are taken in, from the next frame on. Tracked features are lost.
   void Turn(const vision::IntakeOptions& intake);
 
-  // All but the features and what they tell, which come by Track, of each frame. Errors: those of
-  // FrameCheck.
+  // Returns all but the features and what they tell, which Track adds. It has to be called for each
+  // frame. Its errors are those of FrameCheck.
   [[nodiscard]] Result<Seen> See(const Observation& observation);
   void Track(Seen& seen, FollowedFor what);
-  // Goes on with features of a view of the last frame, strong ones that are spread over it.
+  // Goes on with strong features of a view of the last frame that are spread over it.
   void FollowSomeOf(const view::ViewTable& view);
 
-  // The same frame without a look; valid as Seen::frame.
+  // Takes in a frame without examining it. The result is valid as Seen::frame is.
   [[nodiscard]] const image::GrayImage* Pass(const Observation& observation);
 
   [[nodiscard]] vision::FeatureTracker& tracker() { return tracker_; }
   [[nodiscard]] const vision::FeatureTracker& tracker() const { return tracker_; }
-  // How pictures are taken in, and whether the robot's turns agree with that.
+  // These are how pictures are taken in, and whether the robot's turns agree with that.
   [[nodiscard]] const vision::IntakeOptions& intake() const { return options_; }
   [[nodiscard]] const MountWatch& mount() const { return mount_; }
   [[nodiscard]] bool has_odometry() const { return last_odometry_.has_value(); }
-  // The base does what it is told: whatever is believed moves a robot.
+  // Tells that the base carries out commands, so that whatever is believed moves a robot.
   [[nodiscard]] bool drives() const { return is_told_; }
-  // It is known how the robot moves, if only by what it is told.
+  // Tells that the robot's motion is known, if only by its commands.
   [[nodiscard]] bool knows_motion() const { return has_odometry() || is_told_; }
 
  private:
@@ -91,7 +94,7 @@ class Eyes {
   MountWatch mount_;
   vision::ViewPicture reduced_;
   FollowedFor followed_for_ = FollowedFor::kPlace;
-  int followed_width_px_ = 0;                           // of the picture they are followed in
+  int followed_width_px_ = 0;  // width of the picture in which they are followed
   std::optional<motion::OdometryIncrement> told_step_;  // since the last frame
   double usual_flow_ = 0.0;
   double frozen_s_ = 0.0;

@@ -7,20 +7,20 @@
 namespace trailcast::agent {
 
 struct FramePaceOptions {
-  // Of the way and the turn between two pictures: beyond, features pass through the picture faster
-  // than they can be followed and judged.
+  // These limit the distance and the turn between two pictures. Beyond them, features pass through
+  // the picture faster than they can be followed and judged.
   double furthest_m = 0.15;
   double furthest_turn_rad = 0.1;
 };
 
-// A robot whose camera sees seldom, or loses pictures, drives slower, by the same way.
+// A robot whose camera gives few pictures, or loses some, drives slower along the same path.
 class FramePace {
  public:
   explicit FramePace(const FramePaceOptions& options = {}) : options_(options) {}
 
-  // A picture came so long after the one before.
+  // Notes the time between two pictures.
   void Note(double after_s);
-  // The command, slowed down where it has to be.
+  // Returns the command, slowed down if necessary.
   [[nodiscard]] motion::VelocityCommand Within(const motion::VelocityCommand& wanted) const;
 
  private:

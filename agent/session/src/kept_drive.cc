@@ -6,8 +6,8 @@
 namespace trailcast::agent {
 namespace {
 
-constexpr double kEach_s = 0.095;  // of ten a second, give or take what stamps do
-// A robot that stands while its scout makes ready teaches nothing.
+constexpr double kEach_s = 0.095;  // ten a second, with a margin for time stamps
+// A robot that stands while its scout prepares teaches nothing.
 constexpr double kMoves_m = 1e-3;
 constexpr double kMoves_rad = 1e-3;
 

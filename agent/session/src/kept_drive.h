@@ -9,8 +9,8 @@
 
 namespace trailcast::agent {
 
-// What a scout has seen since it began, for as long as that may have to be taught again: ten
-// pictures a second at most, of a robot that moves.
+// This keeps what a scout has seen since it began, for as long as it may have to be taught again:
+// at most ten pictures a second, of a robot that moves.
 class KeptDrive {
  public:
   struct Frame {
@@ -21,7 +21,7 @@ class KeptDrive {
   explicit KeptDrive(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
   void Add(int number, Observation seen);
-  // False: it was more than may be kept, and is gone.
+  // Returns false if it exceeded the bound and was dropped.
   [[nodiscard]] bool whole() const { return whole_; }
   [[nodiscard]] std::deque<Frame> Take() { return std::move(frames_); }
 
@@ -30,7 +30,7 @@ class KeptDrive {
   std::size_t bytes_ = 0;
   bool whole_ = true;
   std::deque<Frame> frames_;
-  std::vector<motion::ImuSample> imu_;  // since the last one that was kept
+  std::vector<motion::ImuSample> imu_;  // since the last frame that was kept
 };
 
 }  // namespace trailcast::agent

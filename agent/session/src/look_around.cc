@@ -6,9 +6,10 @@ namespace trailcast::agent {
 namespace {
 
 constexpr double kRate_radps = 0.5;  // slow enough for sharp pictures
-constexpr double kNear_rad = 1.05;   // the usual lens's own view
+constexpr double kNear_rad = 1.05;   // field of view of the usual lens
 constexpr double kThere_rad = 0.05;
-// Of what a turn should take: a base that does not turn is not waited for.
+// This multiplies the time that a turn should take. After it, a base that does not turn is not
+// waited for.
 constexpr double kPatience = 3.0;
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr std::array kMethods = {NamedMethod{"default", ReplayMethod::kDefault},
                                  NamedMethod{"paper", ReplayMethod::kPaper},
                                  NamedMethod{"icra2006", ReplayMethod::kIcra2006}};
 
-constexpr double kKnownMagnification = 0.005;  // relative: of what an earlier run has learnt
+constexpr double kKnownMagnification = 0.005;  // relative, for an earlier run's magnification
 constexpr double kBangBang_radps = 0.35;
 
 }  // namespace

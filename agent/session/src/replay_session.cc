@@ -25,16 +25,17 @@ namespace {
 
 constexpr double kMostWithoutPicture_s = 3.0;
 constexpr double kFirstFrame_s = 1.0 / 30.0;
-// How far from the route's start a robot may be that is put there, in the route's units.
+// A robot that is put at the route's start may be this far from it, in the route's units.
 constexpr double kStart_sigma = 0.25;
-constexpr double kLeft_m = 0.5;  // and from where it was left
-// Odometry that is doubted so far tells next to nothing; that is believed so far carries a robot.
+constexpr double kLeft_m = 0.5;  // distance from where it was left
+// Odometry that is trusted less than the first says next to nothing; trusted more than the second
+// it carries a robot.
 constexpr double kDoubted = 0.85;
 constexpr double kBelieved = 0.3;
 constexpr int kFewTracked = 8;  // the views are asked before these are missed
-constexpr double kThere = 0.5;  // of where the belief holds the robot to be; the route's units
+constexpr double kThere = 0.5;  // distance from the belief's place, in the route's units
 constexpr double kTurns_rad_per_m = 1.0;
-constexpr double kUnknownScale = 0.3;  // of a way
+constexpr double kUnknownScale = 0.3;  // of a distance
 
 vision::IntakeOptions IntakeOf(const ReplayMethodOptions& options) {
   vision::IntakeOptions intake = options.intake;
@@ -44,8 +45,8 @@ vision::IntakeOptions IntakeOf(const ReplayMethodOptions& options) {
 
 }  // namespace
 
-// A picture's way: what is seen (eyes), where that is (place), how to steer and what is said of it
-// (by features, or by views).
+// This is a picture's path: the front end, the place, and how to steer and what to report, by
+// features or by views.
 struct ReplaySession::State {
   State(const ReplayMethodOptions& method, const route::RouteInfo& info)
       : options(method),
@@ -58,7 +59,7 @@ struct ReplaySession::State {
     if (method.take_experience) views_met.emplace(info.image_width_px, info.image_height_px);
   }
 
-  // Our own method goes by what is recognised where nothing tells how the robot or the scout moved.
+  // Our own method goes by what is recognised if nothing tells how the robot or the scout moved.
   [[nodiscard]] bool ByViews() const {
     return options.method == ReplayMethod::kDefault &&
            !(eyes.knows_motion() && route.segments().front().has_odometry);
@@ -66,7 +67,7 @@ struct ReplaySession::State {
   [[nodiscard]] ReplayStep StepWithoutPicture(const std::string& why);
   void NoteTime(SensorTime stamp);
   void StartPlace(int width_px);
-  bool Locate(const Seen& seen);  // true: what is recognised was looked at
+  bool Locate(const Seen& seen);  // true if it examined what is recognised
   void ToRoute(Seen& seen) const;
   void Doubt(Seen& seen) const;
   [[nodiscard]] Evidence EvidenceOf(const ReplayStep& step) const;
@@ -83,25 +84,25 @@ struct ReplaySession::State {
   FramePace pace;
   PlaceKeeper place;
   vision::PictureSize scout;
-  std::optional<FeatureFollower> by_features;  // always
+  std::optional<FeatureFollower> by_features;  // always set
   ViewFollower by_views;
   std::optional<ViewTaker> views_met;
   std::optional<LeftAt> left;
-  bool begun = false;  // a frame was seen while something of the route was known
+  bool begun = false;  // a frame was seen while some of the route was known
   Standing standing;
-  Standing of_features;          // what following by features alone has come to
+  Standing of_features;          // the state of following by features alone
   bool steers_by_views = false;  // in the last frame
   std::optional<SensorTime> last_stamp;
-  double looked_s = 0.0;  // since the last frame, seen or not, and no longer than kLongestFrame_s
+  double looked_s = 0.0;  // since the last frame, seen or not, but no longer than kLongestFrame_s
   double without_picture_s = 0.0;
   const image::GrayImage* picture = nullptr;
-  bool passed = false;     // it was not looked at
-  std::string turned;      // as in ReplayStep
-  bool misturned = false;  // whatever it does by its pictures is wrong
+  bool passed = false;     // it was not examined
+  std::string turned;      // see ReplayStep
+  bool misturned = false;  // its pictures mislead it in whatever it does
   ReplayStep last;
 };
 
-// A camera that gives nothing to look at: the robot stands, for a while.
+// Handles a camera that gives no usable picture: the robot stands for a while.
 ReplayStep ReplaySession::State::StepWithoutPicture(const std::string& why) {
   if (standing.state == ReplayState::kArrived || standing.state == ReplayState::kLost) return last;
   ReplayStep report = last;
@@ -139,8 +140,8 @@ void ReplaySession::State::StartPlace(int width_px) {
   }
 }
 
-// A robot that is sure of its features asks what is recognised of the route only now and then, as
-// long as they are many, and one that goes by that does so unless its picture stands.
+// A robot that is sure of many features asks only now and then what is recognised of the route. One
+// that goes by what is recognised asks unless its picture stands still.
 bool ReplaySession::State::Locate(const Seen& seen) {
   if (!begun) StartPlace(seen.frame->width);
   FrameMotion along{seen.measured,           seen.told,  seen.flow, seen.dt_s,
@@ -164,8 +165,7 @@ Evidence ReplaySession::State::EvidenceOf(const ReplayStep& step) const {
   return step.command == motion::VelocityCommand{} ? Evidence::kNothing : Evidence::kMotion;
 }
 
-// Where the scout's own metres are not known, this brings the robot's to those that are taken for
-// them.
+// Where the scout's own metres are not known, this converts the robot's metres to the route's.
 void ReplaySession::State::ToRoute(Seen& seen) const {
   if (place.metric() || !seen.driven) return;
   seen.driven->distance_m *= place.ScaleOfWay();
@@ -174,7 +174,7 @@ void ReplaySession::State::ToRoute(Seen& seen) const {
 }
 
 // Where the pictures contradict odometry, the robot may have come as far as the scout did in that
-// time, and turned as much as that takes, besides what odometry tells.
+// time, with the turns that this takes, beside what odometry tells.
 void ReplaySession::State::Doubt(Seen& seen) const {
   const double doubt = seen.frozen ? 1.0 : 1.0 - place.TrustInOdometry().value_or(1.0);
   if (doubt < kDoubted || !seen.driven) return;
@@ -185,21 +185,22 @@ void ReplaySession::State::Doubt(Seen& seen) const {
                  doubt * (kTurns_rad_per_m * come_m + std::abs(seen.driven->heading_change_rad)));
 }
 
-// Views that are recognised say more than features that are not seen, or lie where they should be
-// if the robot were somewhere else. What stands before the camera hides both.
+// Recognised views count more than features that are not seen, or that lie where they should be if
+// the robot were somewhere else. Whatever stands before the camera hides both.
 bool ReplaySession::State::ViewsKnowBetter(const ReplayStep& features,
                                            const ReplayStep& views) const {
   const bool follows = features.state == ReplayState::kFollowing;
   if (features.trust == Trust::kCovered || by_features->seeks_start()) return false;
-  // A handful of another camera's features agree with a place some metres off: too few to drive by.
+  // A handful of another camera's features agree with a place some metres off, which are too few to
+  // drive by.
   constexpr int kToDriveBy = 10;
   if (eyes.drives() && place.agreed_now() < kToDriveBy) return false;
   if (views.state == ReplayState::kArrived) return !follows;
   return views.state == ReplayState::kFollowing && (!follows || features.trust == Trust::kUnsure);
 }
 
-// Odometry that is believed carries a robot more exactly, for a short way, than a view steers it,
-// if the robot is recognised where it holds itself to be.
+// Odometry that is trusted carries a robot over a short distance more exactly than a view steers
+// it, if the robot is recognised at its estimated place.
 bool ReplaySession::State::CarriedByOdometry(const ReplayStep& features) const {
   const double apart = place.where().along - place.AlongOf({features.segment, features.fraction});
   return features.command != motion::VelocityCommand{} && std::abs(apart) <= kThere &&
@@ -210,7 +211,7 @@ ReplayStep ReplaySession::State::Follow(const Seen& seen, bool looked) {
   if (ByViews()) {
     steers_by_views = true;
     ReplayStep views = by_views.Step(seen.looked_s);
-    // Whose flow tells whether the robot moves.
+    // Their flow tells whether the robot moves.
     if (looked) eyes.FollowSomeOf(place.look().seen);
     standing = StandingOf(views);
     return views;
@@ -236,7 +237,7 @@ ReplayStep ReplaySession::State::Follow(const Seen& seen, bool looked) {
   return views;
 }
 
-// What was seen so far was not what is there. It stands in this frame, and begins with the next.
+// The earlier frames were misread. The robot stands in this frame, and begins with the next.
 ReplayStep ReplaySession::State::Turned(double turn_deg, const Observation& observation) {
   vision::IntakeOptions intake = eyes.intake();
   intake.roll_deg = RollAfter(intake.roll_deg, turn_deg);
@@ -257,7 +258,7 @@ ReplayStep ReplaySession::State::Turned(double turn_deg, const Observation& obse
   return step;
 }
 
-// Nothing that it would do on such pictures is right: left is right, or up.
+// Nothing that it would do on such pictures is right, since left is right, or up.
 ReplayStep ReplaySession::State::StandMisturned() {
   misturned = true;
   const double roll_deg = RollAfter(eyes.intake().roll_deg, *eyes.mount().roll_by_told_deg());

@@ -8,7 +8,7 @@
 
 namespace trailcast::agent {
 
-// How a run stands, from one frame to the next.
+// This is a run's status, from one frame to the next.
 struct Standing {
   ReplayState state = ReplayState::kWaiting;
   Trust trust = Trust::kSeeking;

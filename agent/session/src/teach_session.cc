@@ -49,7 +49,7 @@ struct TeachSession::State {
   int middle_features;
   route::View last_view;
   bool last_is_kept = false;
-  // A segment is under way: with features, or blind, by odometry alone, until some come into view.
+  // A segment is under way with features, or blind, by odometry alone, until some come into view.
   enum class Recording { kNothing, kBlind, kFeatures, kTurn } recording = Recording::kNothing;
 
   using Event = teach::SegmentRecorder::Event;
@@ -117,7 +117,7 @@ void TeachSession::State::KeepView(const image::GrayImage& frame) {
   if (last_is_kept) recorder.Keep(key_views.kept());
 }
 
-// Until a turn has told how the camera hangs.
+// This is needed until a turn has told how the camera is mounted.
 struct TeachSession::Mount {
   explicit Mount(std::size_t most_kept_bytes) : kept(most_kept_bytes) {}
 
@@ -128,7 +128,7 @@ struct TeachSession::Mount {
   std::optional<motion::Pose2> last_odometry;
 };
 
-// Frames that are to be taught before those that come next.
+// These frames have to be taught before those that come next.
 struct TeachSession::Waiting {
   std::deque<KeptDrive::Frame> frames;
 };
@@ -169,8 +169,8 @@ std::optional<TeachStep> TeachSession::CatchUp() {
   return Take(next.seen);
 }
 
-// Of the frame that was taken last. Nothing: the camera hangs as it was said to, as far as is
-// known.
+// Examines the frame that was taken last. Returns nothing if the camera is mounted as stated, as
+// far as is known.
 Result<std::optional<TaughtAnew>> TeachSession::LookAtMount(const Observation& observation) {
   Mount& mount = *mount_;
   std::optional<motion::OdometryIncrement> measured;

@@ -6,7 +6,8 @@ namespace trailcast::agent {
 namespace {
 
 constexpr double kLag_s = 0.15;  // of a small base
-// Of the way and of the turn, as a share; and of either per root metre and root radian.
+// These are shares of the distance and of the turn, and of either for each root metre and root
+// radian.
 constexpr double kShare = 0.1;
 constexpr double kWay_m = 0.05;
 constexpr double kTurn_rad = 0.05;

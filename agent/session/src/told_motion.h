@@ -4,17 +4,17 @@
 
 namespace trailcast::agent {
 
-// How a base moves that does what it is told after a little while: first-order lag.
+// This models how a base moves that carries out commands after a short time: a first-order lag.
 class ToldMotion {
  public:
-  // The base was told so for `dt_s`; how far it came meanwhile.
+  // Takes the command of `dt_s`, and returns how far the base came meanwhile.
   [[nodiscard]] motion::OdometryIncrement Drive(const motion::VelocityCommand& told, double dt_s);
 
  private:
   motion::VelocityCommand moves_;
 };
 
-// How far a robot may have driven and turned besides what it was told: bases slip, and turn by
+// Returns how far a robot may have driven and turned beside its commands: bases slip, and turn at
 // other rates than they are asked for.
 [[nodiscard]] motion::OdometryIncrement DoubtOfTold(const motion::OdometryIncrement& told);
 

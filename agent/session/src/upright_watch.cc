@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kRecognised = 10;    // features that agree
 constexpr int kNotRecognised = 7;  // as many agree in any picture
-constexpr int kEachFrame = 10;     // is looked at, of the first ones
+constexpr int kEachFrame = 10;     // of the first ones, each is examined
 constexpr int kOneInSoMany = 5;    // after that
 constexpr double kWatched_s = 20.0;
 
@@ -35,7 +35,7 @@ std::optional<double> UprightWatch::Look(const Seen& seen, const PlaceKeeper& pl
     agreed_ = agreed;
     turn_deg_ = turn_deg;
   }
-  upright_ = turn_deg_ != 0.0 && turn_deg_ == before_deg;  // twice the same is no chance
+  upright_ = turn_deg_ != 0.0 && turn_deg_ == before_deg;  // twice the same is no coincidence
   return upright_ ? std::optional(turn_deg_) : std::nullopt;
 }
 

@@ -60,7 +60,7 @@ void Confidence::NoteCarry() {
   carried_at_m_ = driven_m_;
 }
 
-// Of a robot that sees what it should: does that tell where it is?
+// Judges whether a robot that sees what it should knows where it is.
 Verdict Confidence::JudgePlace(const Sighting& seen) const {
   if (!seen.left_sigma_m || *seen.left_sigma_m < options_.distant_sigma_m ||
       driven_m_ < options_.settle_m) {
@@ -77,7 +77,7 @@ Verdict Confidence::JudgePlace(const Sighting& seen) const {
                       *seen.left_sigma_m)};
 }
 
-// Of a view that is gone.
+// Judges whether a view that is gone was covered.
 bool Confidence::CoveredNow(const Sighting& seen) const {
   if (!options_.stand_when_covered ||
       seen.in_picture.value_or(seen.taught) < options_.covered_least_expected) {
@@ -139,8 +139,9 @@ Verdict Confidence::Judge(const Sighting& seen,
   unsure_s_ += seen.dt_s;
   const bool gone = seen.agreeing < options_.min_features;
   covered_ = covered_ || (gone && sure_once_ && moved && CoveredNow(seen));
-  // Whatever hides the segment's features does not hide the view yet. What was seen before is not
-  // forgotten: somebody who steps in front of the camera takes a moment to cover all of it.
+  // Whatever hides the segment's features does not hide the view yet. The earlier good view is
+  // still remembered, since a person who steps in front of the camera takes a moment to cover all
+  // of it.
   if (seen.recognised || seen.glimpsed || seen.elsewhere) covered_ = false;
   if (covered_) since_covered_s_ = 0.0;
   const bool by_distance = moved.has_value() && sure_once_;

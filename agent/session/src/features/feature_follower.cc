@@ -14,19 +14,19 @@
 namespace trailcast::agent {
 namespace {
 
-// Blind robots look for the route again every so many seconds: the wide search costs time.
+// Blind robots look for the route again this often, since the wide search takes time.
 constexpr double kLookAgain_s = 5.0 / 30.0;
-// So far along its segment one may be from where it was that was carried, and turned as well.
+// A robot that was carried and turned may be this far along its segment from where it was.
 constexpr double kCarried_m = 1.0;
 constexpr double kShareToSkip = 0.5;
-constexpr double kApart = 0.5;  // the route's units
+constexpr double kApart = 0.5;  // in the route's units
 // Features that move further than this from picture to picture, as a share of its width, are lost
-// without anybody covering them.
+// although nothing covers them.
 constexpr double kRushes = 0.025;
-// No view of another place agrees in so many features.
+// Views of other places agree in fewer features than this.
 constexpr int kRecognised = 8;
-constexpr int kGlimpsed = belief::RouteBeliefOptions{}.least_agreed;  // as a held place has it
-// What a robot that stands does not see where it should be, it will not see there later.
+constexpr int kGlimpsed = belief::RouteBeliefOptions{}.least_agreed;  // as for a held place
+// If a robot that stands does not see something where it should be, it will not see it there later.
 constexpr double kLookThere_s = 1.5;
 constexpr double kLensTurn_rad = 0.2;
 
@@ -103,7 +103,7 @@ replay::FollowStep FeatureFollower::Steer(const Seen& seen, Standing& standing) 
   return step;
 }
 
-// By a method that drives forwards only.
+// Refuses to drive backwards by a method that only drives forwards.
 void FeatureFollower::RefuseReverse(Standing& standing) const {
   if (!AsPrinted(options_.method) || !follower_->segment().reverse) return;
   standing = {ReplayState::kLost, Trust::kLost,
@@ -112,8 +112,8 @@ void FeatureFollower::RefuseReverse(Standing& standing) const {
                           ToString(options_.method))};
 }
 
-// On the spot, before a segment: by odometry, and by the segment's features once they come into
-// view. After it, and before it drives on, the robot has to be sure of them.
+// Turns on the spot before a segment, by odometry, and by the segment's features once they come
+// into view. Then the robot has to be sure of them before it drives on.
 replay::FollowStep FeatureFollower::Turn(const Seen& seen, Standing& standing) {
   const replay::FollowStep step = follower_->Step({seen.features, seen.driven, seen.unknown});
   const bool agrees =
@@ -163,13 +163,13 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
     step.ended = step.offset->along_m >= follower_->segment().length_m;
   }
   const bool next_is_here = route_.has(follower_->segment().index.value() + 1);
-  // What covers this segment's features covers the next one's too.
+  // Whatever covers this segment's features covers the next one's too.
   const bool covered =
       standing.trust == Trust::kCovered || confidence_.view_is_going() || look_around_.turns();
   const bool wants_next = step.wants_next && next_is_here && !covered &&
                           !route_.stands_after(follower_->segment().index);
   if (standing.state != ReplayState::kLost && (step.ended || wants_next)) EndSegment(standing);
-  // A segment that has just begun is not as far along as the last one was.
+  // A segment that has just begun has less progress than the last one had.
   if (follower_->segment().index != before) {
     step.fraction = 0.0;
     if (step.offset) step.offset->along_m -= route_.segment(before).length_m;
@@ -178,7 +178,7 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
   return step;
 }
 
-// For the next frame to steer by.
+// Notes obstacles, for the next frame to steer by.
 void FeatureFollower::LookWhatStands(const replay::FollowStep& step, const Seen& seen,
                                      const Standing& standing) {
   if (seen.stands == nullptr || !step.offset || follower_->segment().reverse) return;
@@ -188,13 +188,13 @@ void FeatureFollower::LookWhatStands(const replay::FollowStep& step, const Seen&
                 PathAheadOf(route_, index, along_m, options_.passing.look_ahead_m), *seen.stands);
 }
 
-// A segment is over once the camera is past it; but where the robot is to stop, to turn on the spot
-// or to drive on the other way, it is the axle that has to come there.
+// A segment is over once the camera is past it. But if the robot has to stop there, to turn on the
+// spot or to drive on in the other direction, its axle has to get there.
 bool FeatureFollower::EndsAtTheAxle() const {
   return route_.stands_after(follower_->segment().index);
 }
 
-// How many of the segment's features should be in this frame.
+// Returns how many of the segment's features should be in this frame.
 int FeatureFollower::InPicture() const {
   const std::vector<route::TrackedFeature> places = follower_->Expect();
   const image::GrayImage& frame = search_.frame();
@@ -219,7 +219,7 @@ Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const Seen& se
   return sighting;
 }
 
-// By the belief over the whole route, of a robot that is thought to be at `point`.
+// Compares the robot's estimated place, `point`, with the belief over the whole route.
 void FeatureFollower::Compare(const RoutePoint& point, Sighting& sighting) const {
   if (!place_.where().held) return;
   // Another camera's views may be a little like those of a place some metres off.
@@ -230,30 +230,31 @@ void FeatureFollower::Compare(const RoutePoint& point, Sighting& sighting) const
   const int enough = drives ? kEnoughAgreedDriving : kEnoughAgreed;
   sighting.elsewhere = !here && sees && place_.where().agreed >= enough;
   sighting.glimpsed = here && place_.agreed_now() >= kGlimpsed;
-  // By which nobody is steered backwards: what is beside the path then asks for the wrong turn.
+  // Robots that drive backwards are not steered by it: features beside the path then ask for the
+  // wrong turn.
   sighting.recognised = here && options_.method == ReplayMethod::kDefault &&
                         !follower_->segment().reverse && place_.agreed_now() >= kRecognised;
 }
 
 void FeatureFollower::Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing) {
   Sighting sighting = SightOf(step, seen);
-  // The belief is outweighed by as many features that lie where the taught geometry has them.
+  // The belief is outweighed by as many features that lie where the taught geometry predicts them.
   sighting.elsewhere =
       sighting.elsewhere && (AsPrinted(options_.method) || place_.where().agreed > step.agreeing);
   const bool elsewhere = sighting.elsewhere;
   Verdict verdict = confidence_.Judge(sighting, seen.driven);
-  if (AsPrinted(options_.method)) {  // which know no doubt of their own
+  if (AsPrinted(options_.method)) {  // the printed methods have no doubt of their own
     Verdict by_place = place_trust_.Judge(place_.where(), seen.looked_s);
     if (by_place.trust == Trust::kLost) verdict = std::move(by_place);
   }
   standing = {StateOf(verdict.trust), verdict.trust, std::move(verdict.reason)};
   NoteWay(step, standing);
   LookAroundFirst(seen, standing);
-  // What is tracked would hold the robot where it was while odometry stands still.
+  // While odometry stands still, tracked features would hold the robot where it was.
   const bool tracked =
       standing.trust == Trust::kSure && step.offset && step.agreeing > 0 && !seen.frozen;
   const RoutePoint point{follower_->segment().index, step.fraction};
-  // Less those that agree with any place, for it is fitted to them.
+  // The place is fitted to the features, so a few of them agree with any place and do not count.
   place_.SetTracked(tracked ? std::optional(point) : std::nullopt,
                     std::max(0, step.agreeing - replay::kFewestAgreeing));
   const bool astray = standing.trust == Trust::kBlind || standing.trust == Trust::kSeeking ||
@@ -275,14 +276,15 @@ void FeatureFollower::NoteWay(const replay::FollowStep& step, const Standing& st
   sure_along_ = sure_along;
 }
 
-// Whoever would give up because it does not see the path may have been turned away from it.
+// A robot that would give up because it does not see its path may have been turned away from it.
 void FeatureFollower::LookAroundFirst(const Seen& seen, Standing& standing) {
   if (standing.trust != Trust::kLost || place_.where().held) look_around_.Rest();
   if (standing.trust != Trust::kLost || !confidence_.ever_sure() || place_.where().held) return;
   TurnToLook(seen, standing);
 }
 
-// Nor does one that may be anywhere on the route, and recognises nothing of it.
+// Neither does a robot give up that may be anywhere on the route and recognises nothing of it: it
+// looks around first.
 replay::FollowStep FeatureFollower::LookAroundForAny(const Seen& seen, Standing& standing) {
   replay::FollowStep step;
   if (lens_turn_.turns()) step.command = {0.0, lens_turn_.turn_rate_radps()};
@@ -303,9 +305,9 @@ void FeatureFollower::TurnToLook(const Seen& seen, Standing& standing) {
   }
 }
 
-// It looks where the belief holds the robot to be, if that is somewhere else; otherwise there,
-// about where it is thought to be and at the next segment's start, by turns: what is near may be
-// gone for good.
+// It looks where the belief holds the robot to be, if that is somewhere else. Otherwise it looks by
+// turns there, around the estimated place, and at the next segment's start, since what is near may
+// be gone for good.
 void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
   if (confidence_.unsure_s() + kTimeSlack_s < look_again_at_s_) return;
   const auto turn = static_cast<int>((confidence_.unsure_s() + kTimeSlack_s) / kLookAgain_s);
@@ -322,7 +324,8 @@ void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
   const route::Segment& segment = route_.segment(point.segment);
   if (segment.features.empty()) return;
   const auto found = search_.Recover(*follower_, segment, point);
-  // What is ahead may be seen from afar: to go on from there, most of it must be.
+  // Features ahead may be visible from afar, so the robot only goes on from there if most of them
+  // are.
   const bool too_far = ahead && static_cast<double>(found.size()) <
                                     kShareToSkip * static_cast<double>(segment.features.size());
   if (found.empty() || too_far) return;
@@ -330,7 +333,7 @@ void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
     follower_->BeginAt(segment, point.fraction);
   } else if (believed || look_around_.turns()) {
     if (believed) came_m_ = 0.0;
-    // How far a robot was carried that was turned as well, its odometry does not know.
+    // Odometry does not know how far a robot was carried that was turned as well.
     follower_->BeginAbout(segment, point.fraction, {kCarried_m, follower_->focal()});
   } else if (ahead) {
     follower_->Begin(segment);
@@ -338,7 +341,7 @@ void FeatureFollower::LookAgain(double fraction, bool elsewhere) {
   search_.TakeUpRecovered(found, *follower_, segment);
 }
 
-// Of a robot that has lost the segment's features, where the view as a whole is recognised.
+// Steers a robot that has lost the segment's features, where the view as a whole is recognised.
 void FeatureFollower::SteerByWholeView(replay::FollowStep& step) const {
   const ViewSteering by_views = SteerByViews(
       place_, options_.speed_factor * follower_->segment().speed_mps(), options_.limits);

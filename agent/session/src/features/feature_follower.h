@@ -26,56 +26,56 @@
 
 namespace trailcast::agent {
 
-// Follows by the features of one segment after the other: has a method of services/replay steer by
-// those that are tracked, judges how far it may be trusted, and seeks features where there are too
-// few, the segment ends, or the robot is elsewhere.
+// This follows by the features of one segment after the other. It has a method of services/replay
+// steer by the tracked ones, judges how far it may be trusted, and seeks features if there are too
+// few, if the segment ends, or if the robot is elsewhere.
 class FeatureFollower {
  public:
-  // `route`, `eyes` and `place` outlive it.
+  // `route`, `eyes` and `place` have to outlive it.
   FeatureFollower(const ReplayMethodOptions& options, const vision::PictureSize& scout,
                   const KnownRoute& route, Eyes& eyes, PlaceKeeper& place);
 
-  // A segment that has just been added to the route.
+  // Takes a segment that has just been added to the route.
   void Learn(const route::Segment& segment);
-  // Before the first frame: where an earlier run has left the robot is looked for first.
+  // Makes it look first where an earlier run has left the robot. Call it before the first frame.
   void GoOnFrom(const LeftAt& left);
 
-  // How to steer by what is seen, where `place` holds the robot to be. `standing` is as the last
-  // frame left it, and becomes what this one says of the run.
+  // Returns how to steer by what is seen, where `place` holds the robot to be. `standing` is as the
+  // last frame left it, and is updated.
   [[nodiscard]] replay::FollowStep Step(const Seen& seen, Standing& standing);
 
-  // What is told of such a step; {}: that nothing is followed yet.
+  // Returns the report of such a step; of {}, that nothing is followed yet.
   [[nodiscard]] ReplayStep Report(const replay::FollowStep& step, const Standing& standing) const;
 
-  // What it met with on the way, if it was to note that, from its beginning or the last call on.
+  // Returns what it met since its beginning or the last call, if it was to note that.
   [[nodiscard]] std::optional<refresh::Visit> TakeVisit();
 
-  // Of a robot that has been sure of its path; otherwise what it was told.
+  // Returns the lens of a robot that has been sure of its path, and otherwise the given one.
   [[nodiscard]] std::optional<OwnLens> lens() const;
 
-  // It was put somewhere, and does not know yet where that is.
+  // Tells that the robot was put somewhere and does not know its place yet.
   [[nodiscard]] bool seeks_start() const {
     return !follower_ && (start_ == Start::kWhereLeft || start_ == Start::kAnywhere);
   }
-  // Driven backwards, it comes along the route.
+  // Tells that the robot follows the route in reverse gear.
   [[nodiscard]] bool reverses() const { return follower_ && follower_->segment().reverse; }
-  // Of the segment being followed; nullptr before the first.
+  // This is of the segment that is being followed, and null before the first.
   [[nodiscard]] const replay::Follower* follower() const { return follower_.get(); }
 
  private:
-  // Where the robot looks for its place on the route. It looks until it begins to follow. From
-  // kAtBeginning and kWhereLeft it goes on to kAnywhere where it is not found; a robot that has
+  // This is where the robot looks for its place on the route, until it begins to follow. From
+  // kAtBeginning and kWhereLeft it goes on to kAnywhere if it is not found there. A robot that has
   // followed its path and lost it begins again with kLostItsPath.
   enum class Start {
-    kAtBeginning,  // the route's, without looking
-    kWhereLeft,    // by an earlier run, or where it is said to stand
-    kAnywhere,     // on the route
+    kAtBeginning,  // at the route's beginning, without looking
+    kWhereLeft,    // where an earlier run left it, or where an operator says that it stands
+    kAnywhere,     // anywhere on the route
     kLostItsPath,  // anywhere on the route, after it was followed for a while
   };
 
-  // So far from where its features are, the belief holds the robot to be somewhere else.
+  // If the belief's place is this far from the features' place, the robot is somewhere else.
   static constexpr double kElsewhere = 1.0;
-  static constexpr double kElsewhereDriving = 2.0;  // of a robot that it moves
+  static constexpr double kElsewhereDriving = 2.0;  // for a robot that it moves
   // A handful agree in any picture.
   static constexpr int kEnoughAgreed = 10;
   static constexpr int kEnoughAgreedDriving = 15;
@@ -86,7 +86,7 @@ class FeatureFollower {
   [[nodiscard]] bool LooksAnywhere() const {
     return !follower_ && (start_ == Start::kAnywhere || start_ == Start::kLostItsPath);
   }
-  // Beginning (feature_follower_begin.cc). False: there is nothing to follow yet.
+  // Begins a segment (feature_follower_begin.cc). Returns false if there is nothing to follow yet.
   [[nodiscard]] bool BeginNext(const Seen& seen, Standing& standing);
   [[nodiscard]] bool BeginWhereLeft(const Seen& seen, Standing& standing);
   [[nodiscard]] bool MeasuresLens(const Seen& seen, Standing& standing);
@@ -102,7 +102,7 @@ class FeatureFollower {
   void ComparePlaces();
   void CompareSome();
   void BeginAtLikeliest();
-  // A part of the route, in its units, for people.
+  // Describes a part of the route, in its units, for people.
   [[nodiscard]] std::string InWords(double way) const;
   [[nodiscard]] double Unlikely(const std::optional<replay::FocalLength>& focal) const;
   [[nodiscard]] const replay::Follower& Fresh(const route::Segment& first);
@@ -128,12 +128,12 @@ class FeatureFollower {
   void LookAgain(double fraction, bool elsewhere);
   void LookWhatStands(const replay::FollowStep& step, const Seen& seen, const Standing& standing);
   void SteerByWholeView(replay::FollowStep& step) const;
-  // Share of the method's speed that is driven.
+  // Returns the share of the method's speed that is driven.
   [[nodiscard]] double SpeedShare(const replay::FollowStep& step, Trust trust) const;
 
   ReplayMethodOptions options_;
   int scout_width_px_;
-  int frame_width_px_ = 0;  // 0: none was seen
+  int frame_width_px_ = 0;  // 0 before the first frame
   const KnownRoute& route_;
   Eyes& eyes_;
   PlaceKeeper& place_;
@@ -141,26 +141,27 @@ class FeatureFollower {
   Confidence confidence_;
   replay::Passing passing_;
   LookingAround look_around_;
-  // A turn to either side that tells its lens, and how far what it sees moves meanwhile.
+  // This is a turn to either side that tells the lens, and how far features move meanwhile.
   LookingAround lens_turn_;
   std::optional<replay::TurnFlow> turn_flow_;
   std::optional<replay::FocalLength> focal_;  // in this run's pixels
-  PlaceTrust place_trust_;                    // of the printed methods
-  double look_again_at_s_ = 0.0;              // of being unsure
-  // Come along the route while it was sure, since it began at the beginning or was held to be
-  // elsewhere all at once: the end of a lap looks like its beginning.
+  PlaceTrust place_trust_;                    // for the printed methods
+  double look_again_at_s_ = 0.0;              // when it has been unsure for so long
+  // This is the distance along the route while it was sure, since it began at the beginning or was
+  // suddenly held to be elsewhere. It is needed because the end of a lap looks like its beginning.
   double came_m_ = 0.0;
-  std::optional<double> sure_along_;  // at the last frame; nothing: it was not sure
+  std::optional<double> sure_along_;  // at the last frame; empty if it was not sure
   double turns_unseen_s_ = 0.0;       // on the spot, since something agreed
   Start start_;
   std::optional<PlaceFinder> place_finder_;  // in kWhereLeft, until it has found the place
-  std::string not_there_;                    // in kAnywhere and kLostItsPath: why it looks there
-  std::vector<RoutePoint> to_compare_;       // places that it may be at,
-  std::vector<PlaceByFeatures> compared_;    // and what their features say
+  std::string not_there_;                    // why it looks there, in kAnywhere and kLostItsPath
+  std::vector<RoutePoint> to_compare_;       // places where it may be
+  std::vector<PlaceByFeatures> compared_;    // evidence of their features
   std::string nowhere_;                      // why it begins at none of them
   double moved_m_ = 0.0;                     // since it began to compare
   std::optional<ExperienceTaker> experience_;
-  // One that knows the route, and is nowhere yet, as long as it is worth keeping: to be copied.
+  // This one knows the route and is nowhere yet. It is kept to be copied, as long as it may be
+  // needed.
   std::unique_ptr<replay::Follower> fresh_;
   bool fresh_by_odometry_ = false;
   std::unique_ptr<replay::Follower> follower_;  // made when the first segment begins

@@ -1,4 +1,4 @@
-// Where a segment begins to be followed, and where the last one ends.
+// This decides where a segment begins to be followed, and where the last one ends.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,17 +15,16 @@
 namespace trailcast::agent {
 namespace {
 
-// What so many segments say of the scout's camera is enough; each costs a fraction of a
-// millisecond.
+// So many segments are enough to learn the scout's camera; each takes a fraction of a millisecond.
 constexpr std::size_t kMostLearnt = 200;
 constexpr double kFound_m = 0.3;
-// How far off one may be that is told where it stands, and where views look alike but for their
-// size.
+// A robot's stated place may be wrong by this much; so may a place among views that look alike
+// apart from their size.
 constexpr double kTold_m = 0.3;
 constexpr double kAlike_m = 2.0;
-// Of places that look alike: how many are compared, of which probability at least, and how often
-// while the robot stands; how far before and behind each one looks, in the route's units; how many
-// segments in one frame; and how far apart they may be that are one place.
+// These are for places that look alike: how many are compared, and their least probability, and how
+// often while the robot stands; how far before and behind each one it looks, in the route's units;
+// how many segments in one frame; and how far apart places may be that count as one.
 constexpr std::size_t kMostCompared = 6;
 constexpr double kLeastCompared = 0.01;
 constexpr double kCompare_s = 0.5;
@@ -33,13 +32,13 @@ constexpr double kLooksAlike = 20.0;
 constexpr std::size_t kComparedAtOnce = 3;
 constexpr double kOnePlace = 3.0;
 constexpr int kEnoughHeld = 6;  // features, where the belief holds it to be there
-// So far before the route's beginning, or beyond its end, one begins there; further off it is not
-// on the route.
+// The robot may begin this far before the route's beginning, or beyond its end. Further off it is
+// not on the route.
 constexpr double kOutside = 1.0;
-// How much of a route may be left where a method says that it has arrived.
+// This much of a route may be left when a method says that it has arrived.
 constexpr double kEnd = 2.0;
 constexpr double kEndShare = 0.05;
-// A robot has to have come so far along a route to have arrived.
+// A robot has to have come this far along a route to have arrived.
 constexpr double kCome_m = 0.5;
 
 }  // namespace
@@ -74,18 +73,19 @@ const replay::Follower& FeatureFollower::Fresh(const route::Segment& first) {
 
 void FeatureFollower::Make(const route::Segment& first) { follower_ = Fresh(first).Clone(); }
 
-// Hand-over: the segment's stored features are found in this frame and followed from here.
+// This is the hand-over: the segment's stored features are found in this frame and followed from
+// here.
 void FeatureFollower::Begin(const route::Segment& segment) {
   if (!follower_) Make(segment);
   follower_->Begin(segment);
-  if (follower_->turning()) {  // what it is to find is not in view yet
+  if (follower_->turning()) {  // the features are not in view yet
     search_.Forget();
   } else {
     search_.HandOverTo(*follower_);
   }
 }
 
-// Of a robot that stands, for want of a segment to follow.
+// Finds a segment to follow for a robot that stands without one.
 bool FeatureFollower::BeginNext(const Seen& seen, Standing& standing) {
   if (!follower_ && start_ == Start::kWhereLeft) return BeginWhereLeft(seen, standing);
   if (LooksAnywhere()) return BeginAnywhere(seen, standing);
@@ -146,8 +146,8 @@ bool FeatureFollower::BeginWhereLeft(const Seen& seen, Standing& standing) {
   return false;
 }
 
-// It is not where it was said to be, or has lost its path. True: it looks along the whole route
-// from now on.
+// Handles a robot that is not at its stated place, or has lost its path. Returns true if it looks
+// along the whole route from now on.
 bool FeatureFollower::LooksElsewhere(Standing& standing) {
   const bool lost = confidence_.ever_sure();
   if (lost ? !LooksAgainIfLost() : !options_.else_anywhere || start_ == Start::kAnywhere) {
@@ -173,12 +173,12 @@ bool FeatureFollower::LooksElsewhere(Standing& standing) {
   return true;
 }
 
-// By our own method, which tells its place on the route by features.
+// Our own method tells its place on the route by features, and can look again.
 bool FeatureFollower::LooksAgainIfLost() const {
   return (options_.else_anywhere || options_.anywhere) && !AsPrinted(options_.method) && follower_;
 }
 
-// The same, of one that may be anywhere on the route.
+// Finds a segment for a robot that may be anywhere on the route.
 bool FeatureFollower::BeginAnywhere(const Seen& seen, Standing& standing) {
   const bool turned = lens_turn_.turns();
   if (turned && MeasuresLens(seen, standing)) return false;
@@ -191,7 +191,7 @@ bool FeatureFollower::BeginAnywhere(const Seen& seen, Standing& standing) {
           "looks where on the route it is: " + (nowhere_.empty() ? verdict.reason : nowhere_)};
   if (seen.driven) moved_m_ += std::abs(seen.driven->distance_m);
   if (moved_m_ > kOnePlace || !MayBeRecognised()) ForgetCompared();
-  if (!nowhere_.empty()) return false;  // to look at the same again until it fits would be to guess
+  if (!nowhere_.empty()) return false;  // looking at the same until it fits would be guessing
   if (!lost) look_around_.Rest();
   if (!turned && MayBeRecognised() && MeasuresLens(seen, standing)) return false;
   look_again_at_s_ -= seen.looked_s;
@@ -205,7 +205,7 @@ bool FeatureFollower::BeginAnywhere(const Seen& seen, Standing& standing) {
   return follower_ != nullptr;
 }
 
-// Somewhere else it would count for a place that it has left.
+// Discards comparisons made before the robot moved.
 void FeatureFollower::ForgetCompared() {
   to_compare_.clear();
   compared_.clear();
@@ -217,8 +217,8 @@ bool FeatureFollower::MayBeRecognised() const {
   return place_.where().held || place_.where().agreed >= kEnoughAgreed;
 }
 
-// Where it is, and how large its camera shows things, is one unknown to a robot that stands;
-// turning tells the second. Once.
+// A robot that stands cannot tell its place and its camera's magnification apart. Turning tells the
+// second. It does so once.
 bool FeatureFollower::MeasuresLens(const Seen& seen, Standing& standing) {
   if (focal_ || lens_turn_.furthest_rad() == 0.0 || !seen.measured) return false;
   if (!turn_flow_) {
@@ -237,16 +237,17 @@ bool FeatureFollower::MeasuresLens(const Seen& seen, Standing& standing) {
   return true;
 }
 
-// By what the route says of the scout's camera.
+// Returns the magnification that follows from the route's knowledge of the scout's camera.
 double FeatureFollower::MagnificationBy(const replay::FocalLength& focal) {
   const replay::Follower& alike = Fresh(route_.segments().front());
   const auto its = alike.focal();
   return its ? alike.magnification() * focal.px / its->px : alike.magnification();
 }
 
-// Views look alike that are of places apart, and from many metres further on: which places may be
-// it, and, where its camera is known, which makes it cheap and tells near from far, every segment's
-// beginning about them. Their features are compared next.
+// Places apart can look alike, and views may be recognised from many metres further on. This
+// collects the places where the robot may be and, if its camera is known, which makes the
+// comparison cheap and tells near from far, every segment's beginning around them. Their features
+// are compared next.
 void FeatureFollower::ComparePlaces() {
   compared_.clear();
   moved_m_ = 0.0;
@@ -267,8 +268,8 @@ void FeatureFollower::ComparePlaces() {
   }
 }
 
-// As many as one picture leaves time for: how many of a segment's features lie as a robot would see
-// them from somewhere about there, and from where.
+// Compares as many as one picture leaves time for: how many of a segment's features lie as a robot
+// somewhere around there would see them, and from where.
 void FeatureFollower::CompareSome() {
   const HandOver unlearnt = search_.hand_over();
   const auto magnification = focal_ ? std::optional(MagnificationBy(*focal_)) : std::nullopt;
@@ -302,7 +303,7 @@ std::string FeatureFollower::InWords(double way) const {
   return fmt::format("{:.0f} % of the route", 100.0 * way / place_.belief().length());
 }
 
-// Of those that were compared, if that is one place, and on the route.
+// Begins at the likeliest of the compared places, if they are one place on the route.
 void FeatureFollower::BeginAtLikeliest() {
   nowhere_.clear();
   const auto likeliest = LikeliestOf(compared_);
@@ -333,15 +334,16 @@ void FeatureFollower::BeginAtLikeliest() {
   came_m_ = kCome_m;
 }
 
-// That its camera is of such a focal length, by what turning has told of it: in features.
+// Returns how unlikely it is that its camera has this focal length, given what turning has told, in
+// features.
 double FeatureFollower::Unlikely(const std::optional<replay::FocalLength>& focal) const {
   if (!focal || !focal_) return 0.0;
   return 0.25 * Square(std::log(focal->px / focal_->px) / std::hypot(focal->sigma, focal_->sigma));
 }
 
-// What tells the place need not be of the segment there: a narrow camera, and one that has turned
-// to look around, see what is further on. By that it begins, and is then counted along the path
-// that leads there. Returns where that is along the route.
+// The features that tell the place need not be of the segment there: a narrow camera, and one that
+// has turned to look around, sees what is further on. The robot begins by those, and is then
+// counted along the path that leads there. Returns where that is along the route.
 std::optional<double> FeatureFollower::BeginBehind(const RoutePoint& by) {
   if (!BeginBy(by)) return std::nullopt;
   const replay::FollowStep step = follower_->Step({eyes_.tracker().Current(), {{}}, {}});

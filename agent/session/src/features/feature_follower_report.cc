@@ -1,4 +1,4 @@
-// What is said of a step, and how much of it is driven.
+// This reports a step, and decides how much of it is driven.
 #include <algorithm>
 #include <cmath>
 
@@ -8,15 +8,15 @@ namespace trailcast::agent {
 namespace {
 
 constexpr double kUncertainSpeedFactor = 0.6;
-// Where the robot is to stand, at the route's end, before a turn on the spot and before it drives
-// on the other way, it is approached ever more slowly.
+// A robot approaches a place where it has to stand ever more slowly: the route's end, a turn on the
+// spot, and a change to the other direction.
 constexpr double kEndDeceleration_mps2 = 0.25;
 constexpr double kEndSpeed_mps = 0.08;
 
 }  // namespace
 
-// Less than all of it when it is not known how far beside the path the robot is, and before it is
-// to stand.
+// Returns less than all of it if the place beside the path is not known well, and before the robot
+// has to stand.
 double FeatureFollower::SpeedShare(const replay::FollowStep& step, Trust trust) const {
   const double share =
       trust == Trust::kBlind || trust == Trust::kDistant ? kUncertainSpeedFactor : 1.0;
@@ -51,7 +51,8 @@ ReplayStep FeatureFollower::Report(const replay::FollowStep& step, const Standin
   report.fraction = state == ReplayState::kArrived ? 1.0 : step.fraction;
   report.progress = route_.ProgressAt(report.segment, report.fraction);
   if (confidence_.ever_sure() && place_.metric()) {
-    // A segment's start may still be ahead: its features are followed as soon as they are in view.
+    // A segment's start may still be ahead, since its features are followed as soon as they are in
+    // view.
     const double along_m = step.offset ? std::min(step.offset->along_m, segment.length_m)
                                        : report.fraction * segment.length_m;
     report.along_m = std::max(0.0, route_.begin_m(segment.index) + along_m);

@@ -5,7 +5,7 @@
 namespace trailcast::agent {
 namespace {
 
-// With a smaller share of the segment's features than this they are sought again, every so often.
+// With a smaller share of the segment's features than this they are sought again from time to time.
 constexpr double kEnoughShare = 0.5;
 constexpr double kRefresh_s = 6.0 / 30.0;
 
@@ -17,8 +17,9 @@ void FeatureSearch::Open(const image::GrayImage& frame) {
 }
 
 // A window that grows with the magnification keeps features longer, some of them while they slide
-// off. The estimator by odometry tells those; the funnel lane does not, and is better off when they
-// are lost and sought again (0.58 instead of 0.81 of the turns right on a recording at 2.6 times).
+// off. The estimator with odometry detects those; the funnel lane does not, and does better when
+// they are lost and sought again (0.58 instead of 0.81 of the turns right on a recording at 2.6
+// times).
 void FeatureSearch::Follow(const std::vector<route::TrackedFeature>& found,
                            const replay::Follower& follower) {
   if (eyes_.knows_motion()) eyes_.tracker().SetMagnification(follower.magnification());

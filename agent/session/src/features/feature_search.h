@@ -12,32 +12,32 @@
 
 namespace trailcast::agent {
 
-// Seeks stored features in the present frame, and has the tracker follow those that it finds from
-// there on. Keeps account of it for whoever watches the run.
+// This seeks stored features in the present frame, and has the tracker follow the found ones from
+// there on. It keeps a record for those who watch the run.
 class FeatureSearch {
  public:
-  // `eyes` and `place` outlive it.
+  // `eyes` and `place` have to outlive it.
   FeatureSearch(bool any_camera, int scout_width_px, Eyes& eyes, PlaceKeeper& place)
       : hand_over_(any_camera, scout_width_px), eyes_(eyes), place_(place) {}
 
-  // From here on it seeks in this frame.
+  // Makes it seek in this frame from now on.
   void Open(const image::GrayImage& frame);
 
-  // Those of the segment that `follower` has just begun.
+  // Finds those of the segment that `follower` has just begun.
   void HandOverTo(replay::Follower& follower);
-  // Those of any segment, as a robot at `point` sees them; nothing if they are too few to go on
-  // with. They are not followed before the caller says so.
+  // Returns those of any segment, as a robot at `point` sees them, or nothing if they are too few
+  // to go on with. The tracker does not follow them before the caller says so.
   [[nodiscard]] std::vector<route::TrackedFeature> Recover(replay::Follower& follower,
                                                            const route::Segment& segment,
                                                            const RoutePoint& point);
   void TakeUpRecovered(const std::vector<route::TrackedFeature>& found,
                        const replay::Follower& follower, const route::Segment& segment);
-  // Those found where an earlier run has left the robot.
+  // Takes those found where an earlier run has left the robot.
   void TakeUpWhereLeft(const vision::FindResult& seen, replay::Follower& follower);
-  // Features once lost (blur, a passer-by) come back into view, and to a robot that was carried off
-  // they are elsewhere: looks for them again, if that is due or `now`.
+  // Looks for features again, if that is due or `now`. Lost ones (blur, a passer-by) come back into
+  // view, and for a robot that was carried off they are elsewhere.
   void Refresh(const replay::Follower& follower, int agreeing, double dt_s, bool now);
-  // Nothing is followed.
+  // Follows nothing.
   void Forget() { eyes_.tracker().Follow({}); }
 
   [[nodiscard]] HandOver& hand_over() { return hand_over_; }

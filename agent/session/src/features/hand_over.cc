@@ -11,20 +11,20 @@ namespace trailcast::agent {
 namespace {
 
 constexpr std::size_t kEnoughToLearn = 10;  // a magnification from fewer is too noisy
-constexpr double kShareToLearn = 0.35;      // and from a small share of them not to be trusted
+constexpr double kShareToLearn = 0.35;      // a smaller share of them is not trusted
 constexpr std::size_t kMagnificationsKept = 15;
-constexpr std::size_t kMagnificationsKnown =
-    10;  // what an earlier run has learnt counts as so many
-// What the search at any magnification can find, and how far, as a logarithm, one fit may be from
-// what the run says: a lens's distortion, a patch seen from nearer.
+constexpr std::size_t kMagnificationsKnown = 10;  // weight of what an earlier run has learnt
+// These are the bounds of the search at any magnification, and how far, as a logarithm, one fit may
+// be from the run's magnification: a lens's distortion, or a patch seen from nearer.
 constexpr double kLeastMagnification = 0.15;
 constexpr double kMostMagnification = 6.5;
 constexpr double kMagnificationApart = 0.3;
-constexpr double kEnoughShare = 0.4;  // found near by: the wide search is not needed
+constexpr double kEnoughShare = 0.4;  // found nearby: no wide search is needed
 constexpr std::size_t kEnoughToRecover = 10;
-// Around what a recognised key view says, in scout's pixels of a picture 320 px wide.
+// This is around the place that a recognised key view gives, in scout's pixels of a picture 320 px
+// wide.
 constexpr double kRecognised_px = 20.0;
-// At the start: some degrees of heading and of mount yaw.
+// At the start this allows for some degrees of heading and of mount yaw.
 constexpr double kStart_px = 45.0;
 constexpr double kRecover_px = 56.0;
 
@@ -33,7 +33,7 @@ vision::SearchRadius Around(double within_px_at_320, int scout_width_px) {
   return {u_px, 0.5 * u_px};
 }
 
-// More of the features, or, at another magnification, few but more than chance would have.
+// Prefers more of the features or, at another magnification, few but more than by chance.
 bool IsBetter(const vision::FindResult& a, const vision::FindResult& b) {
   if (a.BeyondChance() != b.BeyondChance()) return a.BeyondChance();
   return a.features.size() > b.features.size();
@@ -43,8 +43,8 @@ double ShareInPicture(const vision::FindResult& found) {
   return static_cast<double>(found.features.size()) / std::max(1, found.in_picture);
 }
 
-// How much larger than at the segment's beginning, where their patterns are from, most features are
-// at its fraction `s`.
+// Returns how much larger than at the segment's beginning, where their patterns are from, most
+// features are at its fraction `s`.
 double Growth(const route::Segment& segment, double s) {
   std::vector<vision::ViewPair> pairs;
   pairs.reserve(segment.features.size());
@@ -57,8 +57,8 @@ double Growth(const route::Segment& segment, double s) {
 
 }  // namespace
 
-// By patterns. A robot that takes its camera to be the scout's knows neither its heading nor its
-// tilt, and how far off features are along v is as uncertain as along u.
+// Finds them by patterns. A robot that assumes the scout's camera knows neither its heading nor its
+// tilt, so features may be as far off along v as along u.
 vision::FindResult HandOver::FindNear(const image::GrayImage& frame, const route::Segment& segment,
                                       std::span<const route::TrackedFeature> expected,
                                       double magnification, double within_px_at_320) const {
@@ -134,8 +134,8 @@ void HandOver::KnowMagnification(double magnification) {
   seen_magnifications_.assign(kMagnificationsKnown, magnification);
 }
 
-// One fit builds on the magnification that the last ones gave: what holds all of them is what the
-// whole run has recognised.
+// One fit builds on the magnification of the last ones. Only what the whole run has recognised
+// bounds all of them.
 bool HandOver::Plausible(double magnification) const {
   if (!std::isfinite(magnification) || magnification < kLeastMagnification ||
       magnification > kMostMagnification) {
@@ -146,7 +146,7 @@ bool HandOver::Plausible(double magnification) const {
   return std::abs(std::log(magnification / run)) < kMagnificationApart;
 }
 
-// The magnification as a running median: one bad fit does no harm.
+// The magnification is a running median, so that one bad fit does no harm.
 void HandOver::Learn(const vision::FindResult& found, replay::Follower& follower) {
   const bool first = seen_magnifications_.empty() && found.BeyondChance();
   if (found.features.size() < kEnoughToLearn && !first) return;

@@ -11,12 +11,12 @@
 namespace trailcast::agent {
 namespace {
 
-// As where a follower was left (place_finder.cc); fewer, for the view as a whole has to agree.
+// This is fewer than where a follower was left (place_finder.cc), since the view as a whole has to
+// agree too.
 constexpr std::size_t kLeastFeatures = 5;
 constexpr double kLeastShare = 0.6;
-// A robot that drives towards the end sees its features grow to the size that they had there. What
-// a fit says is exact to a hundredth or so; one in fifty is a tenth of a metre before a wall five
-// metres away.
+// The features grow to the size that they had at the end as the robot drives towards it. A fit is
+// exact to a hundredth or so; one in fifty is a tenth of a metre before a wall five metres away.
 constexpr double kLeastSize = 0.98;
 constexpr double kMostSize = 1.04;
 

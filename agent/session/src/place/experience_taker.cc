@@ -14,38 +14,41 @@ namespace {
 using Eigen::Vector2d;
 using replay::InverseDepth;
 
-// A place that is good to some centimetres, near the path, looking along it.
+// The place is known to some centimetres, near the path, looking along it.
 constexpr double kMostSigma_m = 0.05;
 constexpr double kMostLeft_m = 0.3;
 constexpr double kMostYaw_rad = 0.25;
 constexpr std::size_t kFewestTracked = 8;
-// Segments shorter than this say too little of how anything moves; and how they are looked at.
+// Shorter segments say too little of how anything moves. The others are examined at these
+// fractions.
 constexpr double kShortest_m = 0.2;
 constexpr int kMomentsASegment = 16;
 constexpr std::size_t kFewestMoments = 5;
 constexpr double kFirstBy = 0.12;  // fractions
 constexpr double kLastFrom = 0.88;
-constexpr double kAbout = 0.13;  // of a knot: the moments that tell it
-// A pattern is taken at the scale of the scout's picture, from one not much coarser or finer.
+constexpr double kAbout = 0.13;  // around a knot: the moments that tell it
+// A pattern is taken at the scale of the scout's picture, from one that is not much coarser or
+// finer.
 constexpr double kLeastMagnification = 0.7;
 constexpr double kMostMagnification = 1.5;
 constexpr int kInTheMiddle = 8;
 constexpr std::size_t kFewestFound = 8;
 constexpr double kLeastFoundShare = 0.2;
-// Pixels of a scout's picture 320 px wide.
+// These are in pixels of a scout's picture 320 px wide.
 constexpr double kEdge_px = 8.0;
-constexpr double kFoundWithin_px = 2.5;  // of their taught places, most found ones are
+// most found features are within this of their taught places
+constexpr double kFoundWithin_px = 2.5;
 constexpr double kMovesAlike_px = 2.5;   // with the found ones, from knot to knot
-constexpr double kLeastMotion_px = 1.5;  // what stays where it is may be dirt on the lens
-constexpr double kApart_px = 5.0;        // from what is found already
-constexpr double kNearby_px = 40.0;      // what is missed where something else is seen is missed
-// Of the times that a feature should have been seen.
+constexpr double kLeastMotion_px = 1.5;  // a feature that stays in place may be dirt on the lens
+constexpr double kApart_px = 5.0;        // from features that are found already
+constexpr double kNearby_px = 40.0;      // a missed feature counts where another one is seen nearby
+// This counts the times that a feature should have been seen.
 constexpr int kFewestExpected = 4;
 constexpr double kFoundShare = 0.25;
 
 Vector2d PlaceOf(const route::TrackKnot& knot) { return {knot.u_px, knot.v_px}; }
 
-// A straight line through what is near; at the ends, beyond it.
+// Returns the value of a straight line through near samples, which reaches beyond the ends.
 Vector2d LineAt(double s, const std::vector<std::pair<double, Vector2d>>& samples) {
   double weight = 0.0;
   double mean_s = 0.0;
@@ -67,8 +70,8 @@ Vector2d LineAt(double s, const std::vector<std::pair<double, Vector2d>>& sample
   return mean + slope * ((s - mean_s) / squares);
 }
 
-// How a feature's knots differ from how a landmark at that depth moves on the taught way: for each
-// stretch between two of them.
+// Returns how a feature's knots differ from how a landmark at that depth moves on the taught path,
+// for each interval between two knots.
 std::vector<Vector2d> Unexplained(const route::Segment& segment, const replay::ScoutCamera& camera,
                                   const route::Feature& feature, const InverseDepth& depth) {
   const Vector2d ahead(camera.ahead_u_px, camera.ahead_v_px);
@@ -85,7 +88,7 @@ std::vector<Vector2d> Unexplained(const route::Segment& segment, const replay::S
   return residuals;
 }
 
-// The median of each stretch's.
+// Returns the median for each interval.
 std::vector<Vector2d> InCommon(const std::vector<std::vector<Vector2d>>& residuals) {
   std::vector<Vector2d> common;
   for (std::size_t stretch = 0; stretch < residuals.front().size(); ++stretch) {
@@ -184,7 +187,7 @@ void ExperienceTaker::Close(const replay::Follower& follower) {
   const std::vector<int> found = Found();
   refresh::SegmentVisit visit{segment_->index, {}, Offer(follower, found)};
   visit.features = Judge(found, visit.offered);
-  // Rising: a robot that was carried back has seen this one before.
+  // Indices rise: a robot that was carried back has seen this one before.
   if (visit_.segments.empty() || visit_.segments.back().index < visit.index) {
     visit_.segments.push_back(std::move(visit));
   }
@@ -196,7 +199,8 @@ refresh::Visit ExperienceTaker::Take(const replay::Follower& follower) {
   return std::exchange(visit_, {});
 }
 
-// Missed is what should have been in view time and again, where near by something else was seen.
+// A feature is missed if it should have been in view several times, while another one was seen
+// nearby.
 std::vector<refresh::Sought> ExperienceTaker::Judge(
     const std::vector<int>& found, const std::vector<route::Feature>& offered) const {
   std::vector<refresh::Sought> judged(counts_.size(), refresh::Sought::kUnjudged);
@@ -233,8 +237,8 @@ std::vector<route::TrackKnot> ExperienceTaker::TrackOf(int id, const InverseDept
   return track;
 }
 
-// Those that were followed from the segment's beginning to its end, and moved: as if they were
-// infinitely far away.
+// Returns those that were followed from the segment's beginning to its end, and moved, as if they
+// were infinitely far away.
 std::vector<ExperienceTaker::Candidate> ExperienceTaker::Candidates() const {
   std::vector<Candidate> candidates;
   for (const route::DescribedFeature& other : others_) {
@@ -248,7 +252,7 @@ std::vector<ExperienceTaker::Candidate> ExperienceTaker::Candidates() const {
   return candidates;
 }
 
-// Whether most of what was found lay where the place that was believed puts it.
+// Tells that most found features lay where the believed place predicts them.
 bool ExperienceTaker::PlaceWasRight(const std::vector<int>& found,
                                     const std::vector<InverseDepth>& depths) const {
   std::vector<double> off_px;
@@ -288,7 +292,7 @@ std::vector<route::Feature> ExperienceTaker::Offer(const replay::Follower& follo
                                                    const std::vector<int>& found) const {
   if (!SawItWell(found)) return {};
   std::vector<Candidate> candidates = Candidates();
-  // How far away they are comes out of all features together, as it does for a follower.
+  // The depths come out of all features together, as they do for a follower.
   route::Segment all = *segment_;
   all.features.clear();
   for (const int i : found) all.features.push_back(segment_->features[static_cast<std::size_t>(i)]);
@@ -296,7 +300,7 @@ std::vector<route::Feature> ExperienceTaker::Offer(const replay::Follower& follo
   const std::vector<InverseDepth> depths = follower.Depths(all);
   if (depths.size() != all.features.size() || !PlaceWasRight(found, depths)) return {};
   const replay::ScoutCamera& camera = moments_.back().place.scout;
-  // What most of those found have in common is the taught heading's own error.
+  // The error that most found ones share is the taught heading's own.
   std::vector<std::vector<Vector2d>> of_found;
   for (std::size_t i = 0; i < found.size(); ++i) {
     of_found.push_back(Unexplained(all, camera, all.features[i], depths[i]));

@@ -15,29 +15,29 @@
 
 namespace trailcast::agent {
 
-// Watches a follower that steers by odometry and features, and notes of each segment which of its
-// features were found, which were missed, and what else was seen there, told in the scout's terms.
+// This watches a follower that steers by odometry and features, and notes for each segment which of
+// its features were found, which were missed, and what else was seen there, in the scout's terms.
 // It has a tracker of its own, and changes nothing of how the follower drives.
 class ExperienceTaker {
  public:
-  // Of the scout's frames.
+  // Takes the size of the scout's frames.
   ExperienceTaker(int scout_width_px, int scout_height_px)
       : width_px_(scout_width_px), height_px_(scout_height_px) {}
 
-  // Every frame, once `follower` has made a step of it. `tracked`: the segment's features where
-  // they are now. `sure`: the robot trusts its place.
+  // Takes every frame, once `follower` has made a step of it. `tracked` are the segment's features
+  // at their present places. `sure` says that the robot trusts its place.
   void Look(const Seen& seen, const replay::Follower& follower,
             const std::vector<route::TrackedFeature>& tracked, bool sure);
 
-  // At the run's end; `follower` is the one that was looked at.
+  // Returns the result at the run's end. `follower` is the one of Look.
   [[nodiscard]] refresh::Visit Take(const replay::Follower& follower);
 
  private:
-  // What was seen from one place.
+  // This is what was seen from one place.
   struct Moment {
     replay::CameraPlace place;
     std::map<int, Eigen::Vector2d> taught;  // by position in the segment
-    std::map<int, Eigen::Vector2d> other;   // of the tracker's own, by id
+    std::map<int, Eigen::Vector2d> other;   // the tracker's own, by id
   };
   struct Candidate {
     int id = 0;
@@ -71,9 +71,9 @@ class ExperienceTaker {
   int height_px_;
   vision::FeatureTracker tracker_;
   refresh::Visit visit_;
-  std::optional<route::Segment> segment_;  // under way
+  std::optional<route::Segment> segment_;  // the present one
   bool sure_throughout_ = false;
-  std::vector<route::DescribedFeature> others_;  // when it began, in the scout's pixels
+  std::vector<route::DescribedFeature> others_;  // at its beginning, in the scout's pixels
   std::vector<Moment> moments_;
   std::vector<Count> counts_;  // one for each of the segment's features
 };

@@ -10,10 +10,10 @@
 
 namespace trailcast::agent {
 
-// A route as far as it has come.
+// This is a route as far as it is known.
 class KnownRoute {
  public:
-  // `announced`: how many segments it is said to have.
+  // `announced` is the announced number of its segments.
   explicit KnownRoute(std::size_t announced) : announced_(announced) {}
 
   void Add(route::Segment segment) {
@@ -30,17 +30,18 @@ class KnownRoute {
   [[nodiscard]] bool is_last(SegmentIndex index) const {
     return complete_ && index.value() + 1 == segments_.size();
   }
-  // Turned on the spot after the segment; 0: it is not, or nothing is known of what comes after.
+  // Returns the turn on the spot after the segment, or 0 if there is none or nothing is known of
+  // what follows.
   [[nodiscard]] double turn_after_rad(SegmentIndex index) const {
     const std::size_t next = index.value() + 1;
     return has(next) ? segments_[next].turn_before_rad : 0.0;
   }
-  // Driven on the other way after the segment, backwards or forwards.
+  // Tells that the direction of driving changes after the segment, to backwards or forwards.
   [[nodiscard]] bool reverses_after(SegmentIndex index) const {
     const std::size_t next = index.value() + 1;
     return has(next) && segments_[next].reverse != segments_[index.value()].reverse;
   }
-  // It is the last one, turned on the spot after, or driven on the other way.
+  // Tells that it is the last one, or that a turn on the spot or a change of direction follows.
   [[nodiscard]] bool stands_after(SegmentIndex index) const {
     return is_last(index) || turn_after_rad(index) != 0.0 || reverses_after(index);
   }
@@ -49,7 +50,7 @@ class KnownRoute {
   [[nodiscard]] double length_m() const {
     return segments_.empty() ? 0.0 : begin_m_.back() + segments_.back().length_m;
   }
-  // As a share of the route as it was announced, by segments.
+  // Returns a share of the announced route, by segments.
   [[nodiscard]] double ProgressAt(SegmentIndex segment, double fraction) const {
     return (segment.value() + fraction) /
            static_cast<double>(std::max(segments_.size(), announced_));
@@ -62,8 +63,8 @@ class KnownRoute {
   bool complete_ = false;
 };
 
-// Turned further than this on the spot, a robot sees next to nothing of what it saw before: without
-// odometry it cannot tell how far it has come round.
+// A robot that turned further than this on the spot sees next to nothing of what it saw before.
+// Without odometry it cannot tell how far it has turned.
 inline constexpr double kTurnsAway_rad = 0.5;
 
 }  // namespace trailcast::agent

@@ -5,8 +5,8 @@
 namespace trailcast::agent {
 namespace {
 
-// How many features fewer speak for a wrong place; and by what share of those in view fewer agree,
-// where they are not far fewer in all: segments have more and less of them.
+// A place is wrong if this many fewer features support it. If they are not far fewer in all, the
+// share of those in view has to be this much less, since segments have more and less of them.
 constexpr double kFarLess = 3.0;
 constexpr double kFarSmaller = 0.1;
 constexpr double kFarFewer = 0.8;

@@ -37,7 +37,7 @@ std::optional<PlaceBehind> NearestBehind(const KnownRoute& route, SegmentIndex i
   std::optional<PlaceBehind> nearest;
   double nearest_m = 0.0;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
-  double end_rad = 0.0;  // heading of the path where it comes to `at`
+  double end_rad = 0.0;  // heading of the path where it reaches `at`
   double back_m = 0.0;
   for (std::size_t i = index.value(); i > 0 && back_m < furthest_m; --i) {
     const route::Segment& segment = route.segments()[i - 1];

@@ -9,20 +9,20 @@
 
 namespace trailcast::agent {
 
-// Where the route goes from `along_m` of a segment on, for `length_m`, or as far as it is known and
-// driven without a stop.
+// Returns the course of the route from `along_m` of a segment on, for `length_m`, or as far as it
+// is known and driven without a stop.
 [[nodiscard]] replay::PathAhead PathAheadOf(const KnownRoute& route, SegmentIndex index,
                                             double along_m, double length_m);
 
-// A place of the path that leads to a segment's beginning.
+// This is a place on the path that leads to a segment's beginning.
 struct PlaceBehind {
   SegmentIndex segment;
-  double along_m = 0.0;  // of it
-  motion::Pose2 pose;    // seen from that beginning: ahead, to the left
+  double along_m = 0.0;  // along the segment
+  motion::Pose2 pose;    // in the frame of that beginning: ahead, to the left
 };
 
-// The one nearest to a position, no more than `furthest_m` back, nor before where the scout last
-// drove backwards; nothing: no path leads there.
+// Returns the one nearest to a position, no more than `furthest_m` back, and not before where the
+// scout last drove backwards, or nothing if no path leads there.
 [[nodiscard]] std::optional<PlaceBehind> NearestBehind(const KnownRoute& route, SegmentIndex index,
                                                        const Eigen::Vector2d& position,
                                                        double furthest_m);

@@ -10,18 +10,18 @@
 namespace trailcast::agent {
 namespace {
 
-// Metres from where it was left. More of them ahead: what was noted may be a second old, and a
-// robot whose agent was killed rolls on for a while.
+// These are metres from where it was left. More of them are ahead: the noted place may be a second
+// old, and a robot whose agent was killed rolls on for a while.
 constexpr std::array kAround_m = {0.0, 0.2, -0.2, 0.4, -0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6};
-// How many of these a robot may be at whose camera is not known.
+// A robot whose camera is not known may be at so many of these.
 constexpr std::size_t kToldPlaces = 5;
-// It is there if it sees so many, and such a share, of the features that should be in its picture:
+// It is there if it sees this many, and this share, of the features that should be in its picture:
 // more than at a hand-over, where it is known to be near.
 constexpr std::size_t kLeastFeatures = 8;
 constexpr std::size_t kLeastFeaturesWhereRecognised = 5;
 constexpr double kRecognised_m = 2.0;
 constexpr double kLeastShare = 0.6;
-// A place from which everything looks so much larger or smaller than it should is another.
+// If everything looks this much larger or smaller than it should, it is another place.
 constexpr double kOtherSize = 0.2;
 
 struct PlaceInRoute {
@@ -29,7 +29,7 @@ struct PlaceInRoute {
   double fraction = 0.0;
 };
 
-// Nothing for a place that is not on the route, or not known yet.
+// Returns nothing for a place that is not on the route, or not known yet.
 std::optional<PlaceInRoute> PlaceAt(std::span<const route::Segment> segments, double along_m) {
   if (along_m < 0.0) return std::nullopt;
   for (const route::Segment& segment : segments) {
@@ -60,7 +60,8 @@ std::optional<PlaceFinder::Found> PlaceFinder::LookFrom(const image::GrayImage& 
                                                         const HandOver& hand_over, double along_m) {
   const auto place = PlaceAt(segments, along_m);
   if (!place) return std::nullopt;
-  // As grown, and of one that is told its place at any magnification, where nothing was found.
+  // A place where nothing was found is tried again with grown patterns and, if an operator told it,
+  // at any magnification.
   const bool again = rounds_ > 0;
   const auto magnification = told_ && again ? std::nullopt : left_.magnification;
   const auto see = [&](bool grown) {
@@ -68,7 +69,7 @@ std::optional<PlaceFinder::Found> PlaceFinder::LookFrom(const image::GrayImage& 
   };
   const bool grows = again && magnification;
   Found found{place->segment->index, place->fraction, see(grows)};
-  if (!magnification) {  // of which more are found at the one that it is
+  if (!magnification) {  // the right one finds more of them
     vision::FindResult grown = see(true);
     if (grown.AboveChance() > found.seen.AboveChance()) found.seen = std::move(grown);
   }
@@ -87,7 +88,7 @@ std::optional<PlaceFinder::Found> PlaceFinder::Look(const image::GrayImage& fram
   const bool recognised = recognised_m && std::abs(*recognised_m - along_m) < kRecognised_m;
   if (found && IsThere(found->seen, recognised)) {
     if (told_) return found;
-    // It is back at the start only if it is nowhere about the other place.
+    // It is back at the start only if it is nowhere around the other place.
     const bool likest = !likest_ || (!at_start && Likeness(*found) > Likeness(*likest_));
     if (Likeness(*found) > 0.0 && likest) likest_ = std::move(found);
   }

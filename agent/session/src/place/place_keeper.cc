@@ -10,21 +10,22 @@
 namespace trailcast::agent {
 namespace {
 
-// How many key views about the place, and of the rest, are compared.
+// So many key views around the place, and so many of the rest, are compared.
 constexpr std::size_t kNearViews = 10;
 constexpr std::size_t kOtherViews = 4;
 constexpr std::size_t kOtherViewsWhenLost = 32;
-constexpr double kLookIsDue = 1.5;  // new looks; features are followed in the meantime
-// A look is a new one once the picture has moved by this share of its width, or the robot so far.
+constexpr double kLookIsDue = 1.5;  // in new looks; features are followed in the meantime
+// A look is a new one once the picture has moved by this share of its width, or the robot by this
+// distance.
 constexpr double kNewLook_flow = 0.025;
 constexpr double kNewLook_m = 0.15;
 constexpr double kNewLook_rad = 0.2;
 constexpr double kStill_flow = 0.0006;
-constexpr double kHere = 1.0;            // about the place; the route's units
-constexpr double kOdometrySigma = 0.05;  // a share of the way
-constexpr double kToldSigma = 0.2;       // the same, of what the base was told
+constexpr double kHere = 1.0;            // around the place; in the route's units
+constexpr double kOdometrySigma = 0.05;  // share of the distance
+constexpr double kToldSigma = 0.2;       // the same for commanded motion
 constexpr double kContradictedWithin_s = 0.3;
-// Which features' agreement tells how the pictures map onto each other.
+// So many features' agreement tells how the pictures map onto each other.
 constexpr std::size_t kViewsToRecognise = 4;
 constexpr int kEnoughToRecognise = 7;
 

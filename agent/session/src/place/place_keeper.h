@@ -12,55 +12,57 @@
 
 namespace trailcast::agent {
 
-// How a robot moved since the last frame.
+// This is how a robot moved since the last frame.
 struct FrameMotion {
-  // Along the route, by odometry, and by what the base was told; nothing: there is none.
+  // These are along the route, by odometry and by the commands to the base, as far as there are
+  // any.
   std::optional<motion::OdometryIncrement> odometry;
   std::optional<motion::OdometryIncrement> told;
   double flow = 0.0;  // of most features in the picture, as a share of its width
   double dt_s = 0.0;
-  double unknown_m = 0.0;  // besides, one way or the other
-  bool frozen = false;     // odometry tells that it stands, against what it sees
+  double unknown_m = 0.0;  // in either direction, beside the rest
+  bool frozen = false;     // odometry stands still while the picture moves
 };
 
-// Keeps the belief in a robot's place on a route (route_belief.h) up to date with how it moves and
-// which of the route's key views its camera shows. No clock.
+// This keeps the belief in a robot's place on a route (route_belief.h) up to date with its motion
+// and with the route's key views that its camera shows. No clock.
 class PlaceKeeper {
  public:
   explicit PlaceKeeper(int scout_width_px) : recogniser_(scout_width_px) {}
 
-  // In order from the route's first on.
+  // Takes segments in order from the route's first on.
   void Learn(const route::Segment& segment);
   [[nodiscard]] bool known() const { return place_.known(); }
 
-  // About there, in the route's units (RoutePlace::metric), or anywhere.
+  // Starts around that place, in the route's units (RoutePlace::metric), or anywhere.
   void StartAt(double along, double sigma);
   void StartAnywhere();
-  // This camera's pixels per scout's, as an earlier run knew it.
+  // Sets this camera's pixels for each of the scout's, as an earlier run knew it.
   void KnowMagnification(double magnification, int width_px);
 
   void Move(const FrameMotion& moved);
-  // By so many features that are tracked the robot is there; nothing: they do not tell. Counts in
+  // Sets that so many tracked features put the robot there, or that they do not tell. It counts in
   // the next look.
   void SetTracked(const std::optional<RoutePoint>& point, int agreed);
-  // Compares a frame with the key views that are worth it; `width_px` as Recogniser::LookAt has it.
-  // The next frame's look says more the more the picture has changed until then.
+  // Compares a frame with the key views that are worth it. `width_px` is as for Recogniser::LookAt.
+  // The next frame's look tells more the more the picture has changed until then.
   void LookAt(const image::GrayImage& picture, int width_px);
   [[nodiscard]] const Look& look() const { return look_; }  // the last one
-  // The features that agree in this frame with the view that is recognised best about the place; 0
-  // where it was not looked at.
+  // Returns how many features agree in this frame with the view that is recognised best around the
+  // place, or 0 without a look.
   [[nodiscard]] int agreed_now() const;
-  // Once the robot has come some way since the last, and always while the place is not held.
+  // Tells that the robot has come some distance since the last look, or that the place is not held.
   [[nodiscard]] bool LookIsDue() const;
 
-  // The picture has moved so far since the last look that another one tells more.
+  // Tells that the picture has moved far enough since the last look that another one tells more.
   [[nodiscard]] bool HasMoved() const { return new_since_look_ >= kLeastNew; }
 
-  // Of any picture: the features that agree in it with one of the views about the place. Moves no
-  // belief.
+  // Returns how many features of any picture agree with one of the views around the place. It moves
+  // no belief.
   [[nodiscard]] int AgreedIn(const image::GrayImage& picture) const;
 
-  // How the scout's picture at that point maps onto this frame; nothing: it is not recognised.
+  // Returns how the scout's picture at that point maps onto this frame, or nothing if it is not
+  // recognised.
   [[nodiscard]] std::optional<vision::ViewFit> Recognise(const image::GrayImage& frame,
                                                          const RoutePoint& point);
 
@@ -70,19 +72,19 @@ class PlaceKeeper {
   [[nodiscard]] RoutePoint PointAt(double along) const { return place_.PointAt(along); }
   [[nodiscard]] double AlongOf(const RoutePoint& point) const { return place_.AlongOf(point); }
   [[nodiscard]] bool metric() const { return place_.metric(); }
-  // How far odometry is believed against what else tells how the robot moves, 0 to 1; nothing: it
-  // has none.
+  // Returns how far odometry is trusted, 0 to 1, against other evidence of the motion, or nothing
+  // without odometry.
   [[nodiscard]] std::optional<double> TrustInOdometry() const;
-  // Metres of the route for each that the robot is measured or told to come.
+  // Returns metres of the route for each metre that the robot measures or is commanded.
   [[nodiscard]] double ScaleOfWay() const { return belief().ScaleOf(0); }
-  // How far the scout came in so long a time where the robot is.
+  // Returns how far the scout came in this time at the robot's place.
   [[nodiscard]] double PaceAt_m(double dt_s) const;
   [[nodiscard]] const Recogniser& recogniser() const { return recogniser_; }
-  // This camera's pixels per scout's; nothing before it was seen.
+  // Returns this camera's pixels for each of the scout's, or nothing before it was seen.
   [[nodiscard]] std::optional<double> Magnification(int width_px) const;
 
  private:
-  static constexpr double kLeastNew = 0.08;  // of a new look
+  static constexpr double kLeastNew = 0.08;  // share of a new look
 
   Recogniser recogniser_;
   RoutePlace place_;
@@ -90,7 +92,7 @@ class PlaceKeeper {
   Look look_;
   double new_since_look_ = 1.0;  // how much of a new look the next one is
   bool looked_ = false;          // since the last Move
-  bool by_odometry_ = false;     // the belief's first witness is odometry
+  bool by_odometry_ = false;     // odometry is the belief's first witness
 };
 
 }  // namespace trailcast::agent

@@ -9,18 +9,18 @@
 namespace trailcast::agent {
 
 struct PlaceTrustOptions {
-  // How long a robot that has lost its place may stand and look, before it is lost.
+  // A robot that has lost its place may stand and look for this long, before it is lost.
   double limit_s = 3.0;
 };
 
-// How far a robot without odometry may trust the belief in its place: it follows while the place is
-// held, and stands otherwise.
+// This tells how far a robot without odometry may trust the belief in its place: it follows while
+// the place is held, and stands otherwise.
 class PlaceTrust {
  public:
   explicit PlaceTrust(const PlaceTrustOptions& options = {}) : options_(options) {}
 
-  // `dt_s`: since the last frame. `doubt`: what speaks against following although the place is
-  // held; empty: nothing.
+  // `dt_s` is since the last frame. `doubt` is a reason against following although the place is
+  // held, or empty.
   [[nodiscard]] Verdict Judge(const belief::RouteBelief::Place& place, double dt_s,
                               std::string_view doubt = "");
   [[nodiscard]] bool ever_sure() const { return ever_sure_; }

@@ -14,7 +14,7 @@
 
 namespace trailcast::agent {
 
-// What was recognised of the route in one frame.
+// This is what was recognised of the route in one frame.
 struct Look {
   struct Recognised {
     std::size_t view = 0;  // position among the route's key views
@@ -22,33 +22,34 @@ struct Look {
   };
   view::ViewTable seen;  // the frame's own features
   std::vector<Recognised> views;
-  int width_px = 0;  // of the frame
+  int width_px = 0;  // width of the frame
 
-  // For the belief.
+  // Returns the comparisons for the belief.
   [[nodiscard]] std::vector<belief::ComparedView> Compared() const;
-  // The one with the most features that agree; nullptr: none was compared.
+  // Returns the one with the most features that agree, or null if none was compared.
   [[nodiscard]] const Recognised* Best() const;
 };
 
-// Compares what a camera sees with the route's key views, all of one scout's camera.
+// This compares a camera's pictures with the route's key views, which are all of one scout's
+// camera.
 class Recogniser {
  public:
   explicit Recogniser(int scout_width_px) : scout_width_px_(scout_width_px) {}
 
-  // The route's next key views. By how much of its logarithm each of the scout's shows things
-  // larger than the one before it; nothing where they have too little in common, and of those that
-  // followers added.
+  // Takes the route's next key views. Returns the logarithm of how much larger each of the scout's
+  // shows things than the one before it, or nothing if they have too little in common, or if a
+  // follower added it.
   std::vector<std::optional<double>> Learn(std::span<const route::KeyView> views);
-  // `width_px`: of the frame that `picture` is, or was reduced from (vision::ViewPicture).
+  // `width_px` is of the frame that `picture` is, or was reduced from (vision::ViewPicture).
   [[nodiscard]] Look LookAt(const image::GrayImage& picture, int width_px,
                             std::span<const std::size_t> views);
-  // The same of a picture that is none of this camera's as it is mounted.
+  // Does the same for a picture that this camera did not take, or not as it is mounted.
   [[nodiscard]] Look Glance(const image::GrayImage& picture,
                             std::span<const std::size_t> views) const;
   [[nodiscard]] int scout_width_px() const { return scout_width_px_; }
   [[nodiscard]] const view::ViewTable& key(std::size_t view) const { return keys_[view]; }
 
-  // How the scout's picture maps onto this one, by what was recognised; in pixels.
+  // Returns how the scout's picture maps onto this one by what was recognised, in pixels.
   [[nodiscard]] vision::ViewFit FitOf(const Look& look, const view::Comparison& comparison) const;
 
  private:
@@ -58,7 +59,7 @@ class Recogniser {
   int scout_width_px_;
   vision::ViewDescriber describer_;
   std::vector<view::ViewTable> keys_;
-  std::optional<std::size_t> last_own_;  // of these, the scout's last
+  std::optional<std::size_t> last_own_;  // the scout's last one among these
 };
 
 }  // namespace trailcast::agent

@@ -7,7 +7,7 @@
 namespace trailcast::agent {
 namespace {
 
-constexpr double kGapLearns = 0.1;  // of each gap between two key views
+constexpr double kGapLearns = 0.1;  // share of each gap between two key views
 
 belief::RouteBeliefOptions OptionsFor(bool metric) {
   belief::RouteBeliefOptions options;
@@ -36,7 +36,7 @@ void RoutePlace::Learn(const route::Segment& segment, std::span<const route::Key
   begins_.push_back(begins_.back() + extent);
 }
 
-// The usual gap is a mean of logarithms: as often twice as long as half as long.
+// The usual gap is a mean of logarithms, since it is as often twice as long as half as long.
 double RoutePlace::PaceByViews(const route::Segment& segment,
                                std::span<const route::KeyView> views) {
   double from = 0.0;
@@ -63,7 +63,7 @@ double RoutePlace::AlongOf(const RoutePoint& point) const {
 }
 
 RoutePoint RoutePlace::PointAt(double along) const {
-  // The last segment that begins there or before, and is not yet over.
+  // This is the last segment that begins there or before, and is not over yet.
   const auto after = std::upper_bound(std::next(begins_.begin()), std::prev(begins_.end()), along);
   const auto index = static_cast<std::uint32_t>(std::distance(begins_.begin(), after) - 1);
   const SegmentIndex segment(index);

@@ -13,15 +13,15 @@
 namespace trailcast::agent {
 namespace {
 
-// In the route's units, where they are no metres, and in metres.
+// These are in the route's units, if they are not metres, and in metres.
 constexpr double kLookAhead = 0.2;
 constexpr double kLookAhead_m = 0.3;
 constexpr double kArrived = 0.06;
 constexpr double kArrived_m = 0.15;
 constexpr double kCome = 1.0;
 constexpr double kCome_m = 0.5;
-constexpr double kTurn_m = 0.3;      // so far before one the robot stands
-constexpr double kTurnTime_s = 0.3;  // over which a turn is carried out
+constexpr double kTurn_m = 0.3;      // the robot stands this far before a turn
+constexpr double kTurnTime_s = 0.3;  // duration of a turn
 constexpr const char* kTurn =
     "the route turns on the spot here, and this robot has no odometry to tell how far it is round: "
     "only a robot with odometry follows it from here";
@@ -32,7 +32,7 @@ constexpr const char* kOnlyTheEnd =
     "what is seen looks like the route's end, where the robot was put and has not come by itself: "
     "put it further back";
 
-// What was recognised, in the scout's pixels at the scout's magnification.
+// Returns what was recognised, in the scout's pixels at the scout's magnification.
 std::vector<replay::SeenKeyView> SeenFrom(const PlaceKeeper& place, const Look& look) {
   const double half_px = 0.5 * place.recogniser().scout_width_px();
   std::vector<replay::SeenKeyView> seen;
@@ -68,9 +68,9 @@ bool ViewFollower::HasCome() const {
          std::min(place_.metric() ? kCome_m : kCome, 0.5 * place_.belief().length());
 }
 
-// What comes, at the place or shortly after, that nobody drives by views: of a turn on the spot
-// they are of one place, whatever way they look, and none tells where to go; and those of a way
-// back ask for the wrong turn.
+// Returns what comes, at the place or shortly after, that key views cannot steer through. In a turn
+// on the spot all views are of one place, whatever their direction, and none tells where to go. On
+// a part that is driven backwards they ask for the wrong turn.
 std::string_view ViewFollower::DoesNotDrive() const {
   if (!place_.where().held) return "";
   const RoutePoint point = place_.point();
@@ -88,7 +88,7 @@ std::string_view ViewFollower::Doubt() const {
   return route_.complete() && SeesTheEnd() && !HasCome() ? kOnlyTheEnd : "";
 }
 
-// `doubt`: what speaks against driving on although the place is held; empty: nothing.
+// `doubt` is a reason against driving on although the place is held, or empty.
 ReplayStep ViewFollower::Go(double dt_s, std::string_view doubt) {
   const belief::RouteBelief::Place& where = place_.where();
   Verdict verdict = trust_.Judge(where, dt_s, doubt);

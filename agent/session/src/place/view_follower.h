@@ -12,8 +12,8 @@
 
 namespace trailcast::agent {
 
-// Where to turn by the key views on either side of the place (view_turn.h), and the command that
-// does it, whether or not that place is to be trusted.
+// This is where to turn by the key views on either side of the place (view_turn.h), and the command
+// that does it, whether or not that place can be trusted.
 struct ViewSteering {
   replay::ViewTurn turn;
   motion::VelocityCommand command;
@@ -21,25 +21,25 @@ struct ViewSteering {
 [[nodiscard]] ViewSteering SteerByViews(const PlaceKeeper& place, double speed_mps,
                                         const motion::VelocityLimits& limits);
 
-// Follows by the route's key views, for robots or routes without odometry: the belief says where
-// the robot is and whether it may go on, the key views on either side where to turn.
+// This follows by the route's key views, for robots or routes without odometry: the belief tells
+// where the robot is and whether it may go on, and the key views on either side tell where to turn.
 class ViewFollower {
  public:
-  // `route` and `place` outlive it.
+  // `route` and `place` have to outlive it.
   ViewFollower(const ReplayMethodOptions& options, const KnownRoute& route,
                const PlaceKeeper& place)
       : options_(options), route_(route), place_(place) {}
 
-  // By the look that the place has just been taken by.
+  // Makes a step by the look that the place has just taken.
   [[nodiscard]] ReplayStep Step(double dt_s);
 
  private:
-  // Whether what is seen is the end of what is known of the route, and whether the robot has come
-  // there: what looks like the end from where it was put may be the beginning, of a lap, say.
+  // Tells that the end of the known route is in view and that the robot has come there. A view of
+  // the end from where the robot was put down may be of the beginning, as on a lap.
   [[nodiscard]] bool SeesTheEnd() const;
   [[nodiscard]] bool HasCome() const;
   [[nodiscard]] std::string_view DoesNotDrive() const;
-  // What speaks against driving on although the place is held; empty: nothing.
+  // Returns a reason against driving on although the place is held, or nothing.
   [[nodiscard]] std::string_view Doubt() const;
   [[nodiscard]] ReplayStep Go(double dt_s, std::string_view doubt);
   void EndAt(ReplayStep& step) const;

@@ -11,28 +11,29 @@
 namespace trailcast::agent {
 namespace {
 
-// From no further off is a place seen as its key view shows it; in metres, and in a route's other
-// units.
+// A place is only seen as its key view shows it from within this distance, in metres, and in a
+// route's other units.
 constexpr double kHere_m = 0.3;
 constexpr double kHere = 0.2;
 constexpr int kFewestLooks = 2;
-// So many features that agree tell how two pictures lie to each other to a pixel or two.
+// This many features that agree tell how two pictures map onto each other, to a pixel or two.
 constexpr int kTells = 10;
-constexpr double kLargest = 1.4;  // and at about the scout's magnification
-// Of a key view's features: recognised; and so well that there is nothing to add.
+constexpr double kLargest = 1.4;  // the magnification has to be near the scout's
+// These are shares of a key view's features: it is recognised, and so well that there is nothing to
+// add.
 constexpr double kFoundShare = 0.3;
 constexpr double kWellShare = 0.5;
 constexpr int kFewest = 8;
 constexpr auto kNoPlace = static_cast<std::size_t>(-1);
 
-// What lies no further apart, in half widths of the picture, and differs in no more bits, in two
-// looks from places so far apart, is no part of the place.
+// A feature within this distance, in half widths of the picture, that differs in no more bits than
+// this, in two looks from places this far apart, is no part of the place.
 constexpr double kStays = 0.03;
 constexpr int kStays_bits = 60;
 constexpr double kElsewhere_m = 0.5;
 constexpr double kElsewhere = 0.15;
 constexpr std::size_t kMostThatStays = 500;
-// Not every look shows all of it: a corner of dirt is none where it meets what is alike behind it.
+// Not every look shows all of it: dirt shows no corner in front of what looks alike.
 constexpr std::size_t kSeenBefore = 3;
 
 bool IsSame(const view::ViewTable& a, std::size_t i, const view::ViewTable& b, std::size_t j) {
@@ -57,7 +58,7 @@ bool ViewTaker::Place::recognised_well() const {
 }
 
 void ViewTaker::Learn(const route::Segment& segment) {
-  // Of a segment from before there were key views there is nothing to refresh.
+  // A segment without key views has nothing to refresh.
   if (segment.key_views.empty()) {
     views_.resize(views_.size() + view::KeyViewsOf(segment).size(), {kNoPlace, 0});
   }
@@ -95,7 +96,7 @@ route::View ViewTaker::AsTaught(const Place& at) const {
   return view;
 }
 
-// By the scout's own view, if that tells it: what is placed by what was placed by others would
+// The scout's own view decides, if it can: places that rely on views which followers added would
 // drift.
 void ViewTaker::Note(const view::ViewTable& seen, Place& at, std::size_t variant,
                      const view::Comparison& comparison) {

@@ -13,34 +13,34 @@
 
 namespace trailcast::agent {
 
-// Watches what a robot that is sure of its place recognises of the route's key views, and notes
-// which it did, which it did not, and how a place looks to it that looks unlike all of them, told
-// in the scout's pixels. Changes nothing of how the robot is driven. No clock.
+// This watches which key views of the route a robot recognises that is sure of its place. It notes
+// recognised and missed ones, and how a place looks that resembles none of them, in the scout's
+// pixels. It changes nothing of how the robot is driven. No clock.
 class ViewTaker {
  public:
-  // Of the scout's frames.
+  // Takes the size of the scout's frames.
   ViewTaker(int scout_width_px, int scout_height_px)
       : width_px_(scout_width_px), height_px_(scout_height_px) {}
 
-  // In order from the route's first on, as `PlaceKeeper::Learn`.
+  // Takes segments in order from the route's first on, as `PlaceKeeper::Learn` does.
   void Learn(const route::Segment& segment);
-  // Each look that `place` has taken while the robot was sure of it.
+  // Takes each look that `place` has taken while the robot was sure of it.
   void See(const PlaceKeeper& place);
 
-  // At the run's end: what was met with is added to `visit`, whose segments rise.
+  // Adds the results to `visit`, whose segments rise, at the run's end.
   void Take(refresh::Visit& visit) const;
 
  private:
-  // A key view of the scout's, and those that followers added there.
+  // This is a key view of the scout's, with those that followers added there.
   struct Place {
     SegmentIndex segment;
-    std::size_t position = 0;  // of the scout's, in its segment
+    std::size_t position = 0;  // of the scout's view, in its segment
     bool metric = false;
-    std::vector<std::size_t> features;  // of each view
+    std::vector<std::size_t> features;  // for each view
     int looks = 0;
-    std::vector<int> agreed;  // of each view, the most in any look
-    view::Comparison told;    // with what was seen in the look by which it was told best
-    view::ViewTable seen;     // what was; none: it is recognised well
+    std::vector<int> agreed;  // for each view, the most in any look
+    view::Comparison told;    // of the look in which it was recognised best
+    view::ViewTable seen;     // features of that look; empty if it is recognised well
     [[nodiscard]] bool recognised_well() const;
   };
 
@@ -54,13 +54,13 @@ class ViewTaker {
   int width_px_;
   int height_px_;
   std::vector<Place> places_;
-  // Of each of the route's key views: its place's position among `places_`, and its own among that
-  // one's views.
+  // For each of the route's key views this has its place's position among `places_`, and its own
+  // among that one's views.
   std::vector<std::pair<std::size_t, std::size_t>> views_;
-  // What lies at one place of the picture wherever the robot is, as dirt on its lens does, by the
-  // looks of one place and another.
+  // These features stay at one place of the picture wherever the robot is, as dirt on its lens
+  // does, by looks from several places.
   view::ViewTable stays_;
-  std::deque<view::ViewTable> last_seen_;  // from elsewhere, each
+  std::deque<view::ViewTable> last_seen_;  // each from another place
   std::optional<double> last_along_;
 };
 
