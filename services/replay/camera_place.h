@@ -6,23 +6,23 @@
 
 namespace trailcast::replay {
 
-// Where a follower's camera is beside the taught path, and how it differs from the scout's: by
-// which what it sees is told in the scout's terms.
+// This is where a follower's camera is beside the taught path, and how it differs from the scout's.
+// It converts what the camera sees to the scout's terms.
 struct CameraPlace {
   ScoutCamera scout;
   double scout_width_px = 0.0;
-  double along_m = 0.0;  // of the segment as if it had been driven forwards
+  double along_m = 0.0;  // along the segment as if it had been driven forwards
   double left_m = 0.0;
   double left_sigma_m = 0.0;
   double yaw_rad = 0.0;    // to the left of where the scout's camera looked
-  double height_m = 0.0;   // above the scout's
+  double height_m = 0.0;   // above the scout's camera
   double roll_rad = 0.0;   // of this frame
-  double pitch_rad = 0.0;  // the same
+  double pitch_rad = 0.0;  // of this frame
   double magnification = 1.0;
   double distortion = 0.0;
 
-  // Where the scout would have seen, from the path itself, what this camera sees at `seen_px` (from
-  // its image centre) and what is so far away from here: inverse depth, 1/m.
+  // Returns where the scout, on the path itself, would have seen what this camera sees at `seen_px`
+  // (from its image centre) at that inverse depth (1/m) from here.
   [[nodiscard]] Eigen::Vector2d AsTaught(const Eigen::Vector2d& seen_px,
                                          double inverse_depth_per_m) const;
 };

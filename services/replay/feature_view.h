@@ -8,15 +8,15 @@
 
 namespace trailcast::replay {
 
-// One feature for those who look over the robot's shoulder; all in the follower's pixels.
+// This is one feature for observers of the robot, in the follower's pixels.
 struct FeatureView {
   route::TrackedFeature at;
-  route::TrackedFeature expected;   // where the method thinks it should be now
-  route::TrackedFeature milestone;  // where it will be at the segment's end
+  route::TrackedFeature expected;   // the method's prediction for now
+  route::TrackedFeature milestone;  // its place at the segment's end
   FeatureVerdict verdict = FeatureVerdict::kInside;
 };
 
-// `seen`: of the segment that `follower` is in; `roll_rad`: as its last step found it.
+// `seen` is of the segment that `follower` is in, and `roll_rad` is from its last step.
 [[nodiscard]] std::vector<FeatureView> ViewFeatures(const Follower& follower,
                                                     const std::vector<route::TrackedFeature>& seen,
                                                     double roll_rad);

@@ -2,7 +2,7 @@
 
 namespace trailcast::replay {
 
-// Of a camera, in its own pixels.
+// This is the focal length of a camera, in its own pixels.
 struct FocalLength {
   double px = 0.0;
   double sigma = 0.0;  // relative

@@ -15,45 +15,48 @@
 namespace trailcast::replay {
 
 struct FunnelFollowerOptions {
-  // gamma, radians per pixel of the scout's picture; scaled with its width. Five times what one
-  // pixel of a usual webcam subtends: the mean is over all features, and most are content.
+  // This is gamma, in radians per pixel of the scout's picture, scaled with its width. It is five
+  // times the angle of one pixel of a usual webcam: the mean is over all features, and most ask for
+  // no turn.
   double gain_rad_per_px_at_320 = 0.018;
-  // Not 0: the robot turns this fast whichever way most features ask for, and looks at nothing else
-  // (the first version, ICRA 2006).
+  // Unless this is 0, the robot turns at this rate to the side that most features ask for, and uses
+  // nothing else (the first version, ICRA 2006).
   double bang_bang_radps = 0.0;
   bool compensate_roll = true;
-  double eta = 0.5;           // share of vision in the turn where there is odometry
-  double turn_time_s = 0.15;  // in which a desired turn is carried out
+  double eta = 0.5;           // share of vision in the turn if there is odometry
+  double turn_time_s = 0.15;  // duration of a desired turn
   double speed_factor = 1.0;
   motion::VelocityLimits limits{1.0, 0.8};
   RollOptions roll;
   TransitionOptions transition;
-  // Without odometry delta has one term of three left and rises too flat for its peak to be caught:
-  // the segment then also ends at this much of the taught tracks, a little early, because past the
+  // Without odometry delta has one term of three left and is too flat for its peak to be found. So
+  // the segment also ends at this share of the taught tracks, a little early, because past the
   // milestone its features ask for the wrong turn.
   double end_fraction_without_odometry = 0.85;
-  // And a smaller share of the segment's features than this says nothing of how far along it is:
+  // A smaller share of the segment's features than this does not tell how far along it is, since
   // any two tracks can be matched somewhere.
   double share_to_tell_progress = 0.143;
-  // A milestone that went by unnoticed: the segment ends so far past its taught length.
+  // This bounds a milestone that went by unnoticed: the segment ends this far past its taught
+  // length.
   double overrun_share = 0.25;
   double overrun_m = 0.3;
-  // Floors under equation (2)'s sigmas: a straight or very short segment, or one of distant
-  // features, would otherwise let the noise of odometry and heading decide.
+  // These are floors under equation (2)'s sigmas. Without them the noise of odometry and heading
+  // would decide in a straight or very short segment, or one of distant features.
   double min_feature_sigma_px_at_320 = 3.0;
   double min_distance_sigma_m = 0.2;
   double min_heading_sigma_rad = 0.1;
 };
 
-// The paper's control step: the funnel lane fused with the taught heading, and its test for a
-// segment's end. Works without odometry too, by vision alone.
+// This is the paper's control step: the funnel lane fused with the taught heading, and its test for
+// a segment's end. It works without odometry too, by vision alone.
 class FunnelFollower final : public Follower {
  public:
-  // `scout_width_px`: of the scout's frames; `magnification`: the follower's pixels per scout's.
+  // `scout_width_px` is of the scout's frames; `magnification` is the follower's pixels for each of
+  // the scout's.
   FunnelFollower(int scout_width_px, double magnification,
                  const FunnelFollowerOptions& options = {});
 
-  void Learn(const route::Segment& /*segment*/) override {}  // all is in the segment itself
+  void Learn(const route::Segment& /*segment*/) override {}  // the segment has all that is needed
   [[nodiscard]] std::unique_ptr<Follower> Clone() const override {
     return std::make_unique<FunnelFollower>(*this);
   }
@@ -73,9 +76,9 @@ class FunnelFollower final : public Follower {
   [[nodiscard]] std::vector<route::TrackedFeature> ExpectAtMilestone() const override {
     return ExpectAt(1.0);
   }
-  // It has no idea how far off the path or the heading it is.
+  // It does not know how far off the path or the heading it is.
   [[nodiscard]] double expected_within_px_at_320() const override { return 56.0; }
-  // The paper believes all that it tracks.
+  // The paper trusts all tracked features.
   [[nodiscard]] double outlier_px() const override {
     return std::numeric_limits<double>::infinity();
   }
@@ -102,8 +105,8 @@ class FunnelFollower final : public Follower {
   double magnification_;
   route::Segment segment_;
   motion::OdometryIncrement driven_;  // since the segment's start
-  // The same, when the images were taken that delta is smoothed over; and in the middle of those
-  // by which it was highest: there the milestone was.
+  // These are the same at the times of the images over which delta is smoothed. The milestone was
+  // in the middle of those for which it was highest.
   std::deque<motion::OdometryIncrement> driven_lately_;
   motion::OdometryIncrement driven_at_peak_;
   TransitionDetector transition_;

@@ -15,23 +15,24 @@ struct PathFollowerOptions {
   LaneKeepingOptions lane_keeping;
   motion::VelocityLimits limits{1.0, 0.8};
   double speed_factor = 1.0;
-  double base_delay_s = 0.15;  // from a command to the motion it asks for
-  // With fewer features left, past this much of a segment, the next one's may serve better: a
+  double base_delay_s = 0.15;  // from a command to its motion
+  // With fewer features left, past this share of a segment, the next one's may serve better: a
   // camera with a narrower view loses the taught ones early.
   int few_features = 10;
   double early_fraction = 0.4;
-  // Turning on the spot, where the path turns so far (less is made up for while driving): so fast
-  // for each radian that is left, but no slower; until so few are.
+  // These are for turning on the spot, if the path turns at least this much (smaller turns are made
+  // up for while driving): the rate for each radian that is left, its least, and the angle at which
+  // the turn is complete.
   double spot_turn_least_rad = 0.2;
   double spot_turn_gain_hz = 1.5;
   double spot_turn_slowest_radps = 0.2;
   double spot_turn_done_rad = 0.05;
-  // So few left, it looks by the features, too, which come into view by and by.
+  // Below this remaining angle it also uses the features, which come into view gradually.
   double spot_turn_looks_rad = 0.2;
 };
 
-// Follows by the widened funnel: estimates where the robot is beside the taught path and steers
-// back onto it. Needs odometry, in the route and on the robot.
+// This follows by the widened funnel: it estimates where the robot is beside the taught path and
+// steers back onto it. It needs odometry, in the route and on the robot.
 class PathFollower final : public Follower {
  public:
   PathFollower(int scout_width_px, double magnification, const PathFollowerOptions& options = {});
@@ -51,12 +52,12 @@ class PathFollower final : public Follower {
   [[nodiscard]] std::vector<route::TrackedFeature> ExpectAtMilestone() const override {
     return estimator_.ExpectAtMilestone();
   }
-  // At the start 4 degrees of heading, mount yaw and pitch and a few centimetres beside near
-  // features; afterwards what parallax and a bend leave over.
+  // At the start this allows for 4 degrees of heading, mount yaw and pitch and for a few
+  // centimetres beside near features; afterwards for what parallax and a bend leave over.
   [[nodiscard]] double expected_within_px_at_320() const override { return settled_ ? 28.0 : 45.0; }
   [[nodiscard]] double outlier_px() const override { return options_.estimator.outlier_px; }
   [[nodiscard]] double magnification() const override { return estimator_.magnification(); }
-  // Taken as the first guess; after that the estimate is better than any one hand-over's.
+  // This is only the first guess. After that the estimate is better than any one hand-over's.
   void SetMagnification(double magnification) override;
   [[nodiscard]] bool turning() const override { return turning_; }
   [[nodiscard]] bool turn_is_in_view() const override {
@@ -75,7 +76,7 @@ class PathFollower final : public Follower {
   [[nodiscard]] PathOffset offset() const;
 
  private:
-  // Of the segment, where the estimator says that one is so far along it; and the other way round.
+  // These convert the estimator's distance along the segment to the driven one, and back.
   [[nodiscard]] double Driven_m(double along_m) const {
     return segment_.reverse ? segment_.length_m - along_m : along_m;
   }

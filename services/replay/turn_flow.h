@@ -9,25 +9,25 @@
 
 namespace trailcast::replay {
 
-// A robot's own focal length, by how far a turn on the spot moves what it sees: that needs no
-// place, no depth and no route. Pixels are its own, from its image centre.
+// This finds a robot's own focal length by how far features move in a turn on the spot, which needs
+// no place, no depth and no route. Pixels are its own, from its image centre.
 class TurnFlow {
  public:
   explicit TurnFlow(int width_px) : width_px_(width_px) {}
 
-  // Where features are now, and how far odometry says that it has turned to the left since the last
-  // look. A feature keeps its id for as long as it is followed.
+  // Takes the present places of features, and how far odometry says that the robot has turned to
+  // the left since the last look. A feature keeps its id for as long as it is followed.
   void Look(const std::vector<route::TrackedFeature>& seen, double turned_rad);
 
-  // Nothing before enough of them have moved by enough.
+  // Returns nothing before enough of them have moved enough.
   [[nodiscard]] std::optional<FocalLength> focal() const;
 
  private:
   struct Moved {
     route::TrackedFeature from;
-    double from_rad = 0.0;  // to the left of where the robot faced at first
+    double from_rad = 0.0;  // to the left of the first heading
     route::TrackedFeature to;
-    double turned_rad = 0.0;  // between the two, the most so far
+    double turned_rad = 0.0;  // between the two, the largest so far
   };
 
   double width_px_;

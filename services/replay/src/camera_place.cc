@@ -9,8 +9,7 @@ constexpr int kRounds = 6;
 
 }  // namespace
 
-// PathEstimator's prediction the other way round; what it counts from the place looked for is
-// iterated.
+// This inverts PathEstimator's prediction. Terms that depend on the result are iterated.
 Eigen::Vector2d CameraPlace::AsTaught(const Eigen::Vector2d& seen_px,
                                       double inverse_depth_per_m) const {
   const Eigen::Vector2d bent = seen_px / magnification;

@@ -11,16 +11,16 @@
 namespace trailcast::replay {
 namespace {
 
-// Starting places of the search, to either side or along the path: closer together than the depths
-// in view are far apart. From each the fit comes in from afar: at first every feature counts, at
-// last only those that agree.
+// The search starts at these places, to either side or along the path: closer together than the
+// depths in view are far apart. From each the fit narrows down: at first every feature counts, and
+// in the end only those that agree.
 constexpr double kFurthest_m = 3.0;
 constexpr double kApart_m = 0.5;
-constexpr double kWidest = 8.0;  // times Cauchy's own width
+constexpr double kWidest = 8.0;  // multiple of Cauchy's own width
 constexpr int kPlaceIterations = 6;
-// So many sigmas may a place be off that is told,
+// A given place may be off by this many standard deviations.
 constexpr double kLikely = 2.0;
-// and the magnification be off that of a camera like the scout's.
+// The magnification may be off by this many from that of a camera like the scout's.
 constexpr double kAlike = 2.0;
 
 }  // namespace

@@ -19,7 +19,8 @@ using Points = std::vector<Eigen::Vector2d>;
 
 Eigen::Vector2d Place(const route::TrackKnot& knot) { return {knot.u_px, knot.v_px}; }
 
-// Of the x-coordinates: y counts for roll alone (III), and a robot that pitches moves all of them.
+// This uses the x-coordinates: y counts for roll alone (III), and a robot that pitches moves all of
+// them.
 double MeanSquared(const Points& a, const Points& b) {
   if (a.empty()) return 0.0;
   double sum = 0.0;
@@ -40,8 +41,9 @@ Points Unrolled(Points points, double angle_rad) {
 
 }  // namespace
 
-// The features in view beside their stored places, in pixels of the scout's magnification; one
-// position in each list for a feature. Two images are compared without the roll between them.
+// These are the features in view beside their stored places, in pixels of the scout's
+// magnification, at one position in each list. Two images are compared without the roll between
+// them.
 struct FunnelFollower::Matched {
   std::vector<int> id;
   Points current;
@@ -49,7 +51,7 @@ struct FunnelFollower::Matched {
   Points first;
   Points first_as_milestone;
   Points milestone;
-  double roll_rad = 0.0;  // of the robot now against the milestone
+  double roll_rad = 0.0;  // of the robot now, relative to the milestone
 
   void UndoRoll(const RollOptions& options) {
     current_as_first = Unrolled(current, RollTowards(current, first, options));
@@ -83,7 +85,7 @@ FunnelFollower::FunnelFollower(int scout_width_px, double magnification,
       visual_fraction_(kFractionMedian) {}
 
 void FunnelFollower::Begin(const route::Segment& segment) {
-  // The last segment ended where delta was highest; what was driven since belongs to this one.
+  // The last segment ended where delta was highest, so the motion since then belongs to this one.
   if (begun_ && segment.index.value() == segment_.index.value() + 1) {
     driven_.distance_m -= driven_at_peak_.distance_m;
     driven_.heading_change_rad -= driven_at_peak_.heading_change_rad;
@@ -145,8 +147,8 @@ FollowStep FunnelFollower::Step(const FollowInput& input) {
   if (options_.compensate_roll) matched.UndoRoll(options_.roll);
   step.roll_rad = matched.roll_rad;
 
-  // The funnel lane, fused with the taught heading: equation (1). Each half alone where the other
-  // is missing.
+  // This is equation (1): the funnel lane fused with the taught heading, or each half alone if the
+  // other is missing.
   step.vision_turn_rad = VisionTurn(matched);
   step.odometry_turn_rad = by_odometry ? OdometryTurn(speed_mps) : 0.0;
   const double eta = !by_odometry ? 1.0 : matched.current.empty() ? 0.0 : options_.eta;
@@ -165,8 +167,8 @@ double FunnelFollower::VisionTurn(const Matched& matched) const {
   return MeanFeatureTurn(matched.FunnelPairs(), gain_rad_per_px_);
 }
 
-// At the segment's end? Equation (2), against this milestone and against the previous one, which is
-// the image that the segment began with.
+// This is equation (2), against this milestone and against the previous one, which is the image
+// that the segment began with.
 bool FunnelFollower::Ended(const Matched& matched, bool by_odometry, FollowStep& step) {
   TransitionErrors errors = by_odometry ? OdometryErrors() : TransitionErrors{};
   errors.feature_sigma_px = std::max(

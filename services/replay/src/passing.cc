@@ -9,8 +9,9 @@
 namespace trailcast::replay {
 namespace {
 
-constexpr double kStep_m = 0.05;  // between the offsets that are looked at
-// Between leaving the path and being beside it, or the other way round, it may be anywhere between.
+constexpr double kStep_m = 0.05;  // between the candidate offsets
+// Between leaving the path and being beside it, and on the way back, the robot may be anywhere
+// between.
 constexpr double kCrossing_m = 0.8;
 
 }  // namespace
@@ -25,13 +26,13 @@ std::vector<Passing::Beside> Passing::Locate(const PathOffset& offset, const Pat
     if (seen.squaredNorm() > reach_m * reach_m) continue;
     const Eigen::Vector2d at(cos * seen.x() - sin * seen.y(),
                              offset.left_m + sin * seen.x() + cos * seen.y());
-    // Behind the robot the path is taken to be straight.
+    // Behind the robot the path is assumed to be straight.
     Beside nearest{at.x(), at.y()};
     double nearest_m = at.x() < 0.0 ? std::abs(at.y()) : std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
       const Eigen::Vector2d along = (path[i + 1] - path[i]).normalized();
       const Eigen::Vector2d off = at - path[i];
-      // What is beyond the last of it is none of its concern.
+      // Obstacles beyond its last point do not matter.
       if (i + 2 == path.size() && off.dot(along) > kApart_m) continue;
       const double further_m = std::clamp(off.dot(along), 0.0, kApart_m);
       const double away_m = (off - further_m * along).norm();
@@ -71,7 +72,8 @@ bool Passing::IsFree(double left_m, double now_left_m, double until_m, double cl
   });
 }
 
-// The least way aside that is free; beside something already, on the same side.
+// Returns the least offset that is free. A robot that is beside an obstacle already stays on that
+// side.
 std::optional<double> Passing::Choose(double now_left_m, double until_m,
                                       const std::vector<Beside>& stands) const {
   for (double aside_m = kStep_m; aside_m <= options_.most_m + 1e-9; aside_m += kStep_m) {
@@ -89,7 +91,7 @@ void Passing::Look(const PathOffset& offset, double route_m, bool sure, const Pa
   const std::vector<Beside> beside = Locate(offset, path, stands);
   const auto blocked = OnThePath(beside);
   const bool aside = left_m_ != 0.0;
-  // A robot that was found elsewhere is not beside what it was passing.
+  // A robot that was found elsewhere is not beside the obstacle that it was passing.
   const bool past = route_m >= back_at_m_ || back_at_m_ - route_m > 2.0 * options_.look_ahead_m;
   if (!blocked && (!aside || past)) {
     left_m_ = 0.0;
@@ -105,8 +107,8 @@ void Passing::Look(const PathOffset& offset, double route_m, bool sure, const Pa
   const double back_at_m =
       aside && !past ? std::max(back_at_m_, route_m + past_m) : route_m + past_m;
   const double until_m = back_at_m - route_m;
-  // It was chosen with more, and what is seen of it varies. Of what stands where the path ends only
-  // so much is passed as leaves room to come back.
+  // The offset was chosen with a larger clearance, since the visible part of an obstacle varies. An
+  // obstacle where the path ends is only passed as far as leaves room to return.
   if (aside && !(past && too_near) &&
       IsFree(left_m_, left_m_, until_m, 0.5 * options_.clearance_m, beside)) {
     back_at_m_ = too_near ? std::max(back_at_m_, route_m + back_by_m) : back_at_m;

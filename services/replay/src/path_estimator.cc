@@ -14,12 +14,12 @@ namespace trailcast::replay {
 namespace {
 
 constexpr int kUpdateIterations = 4;
-constexpr double kFlowStep_m = 0.02;  // over which a track's flow is taken
+constexpr double kFlowStep_m = 0.02;  // a track's flow is taken over this
 constexpr double kTaughtCurvatureStep_m = 0.1;
-// Within these two looks are from one place.
+// Two looks within these distances are from one place.
 constexpr double kStands_m = 0.001;
 constexpr double kStands_rad = 0.001;
-constexpr std::size_t kFewestOfKnock = 10;  // features: a handful may be mismatches
+constexpr std::size_t kFewestOfKnock = 10;  // a handful of features may be mismatches
 
 void Count(double residual_px, double outlier_px, Agreement& agreement) {
   if (residual_px < outlier_px) {
@@ -47,8 +47,8 @@ PathEstimator::PathEstimator(int scout_width_px, double magnification,
 
 void PathEstimator::Begin(const route::Segment& segment) {
   state_[kAlong] += EntryOf(segment) - ExitOf(segment_);
-  // What lies before the segment's start: where both are driven forwards the last segment,
-  // otherwise the bend goes on.
+  // This is the path before the segment's start: the last segment if both are driven forwards,
+  // otherwise the bend continues.
   const bool on = !segment.reverse && !segment_.reverse;
   last_heading_ = on ? segment_.heading : segment.heading;
   last_length_m_ = on ? segment_.length_m : 0.0;
@@ -85,8 +85,8 @@ FocalLength PathEstimator::focal() const {
 
 void PathEstimator::StartAt(const route::Segment& segment) {
   Restart(segment, EntryOf(segment) + state_[kAhead]);
-  // What is seen here is put down to where the robot was put, not to its mount: on a straight path
-  // nothing would ever set that right.
+  // Errors seen here are attributed to the robot's given place, not to its mount: on a straight
+  // path nothing would ever correct the latter.
   covariance_(kAlong, kAlong) += covariance_(kAhead, kAhead);
 }
 
@@ -125,7 +125,7 @@ void PathEstimator::TurnPath(double turn_rad) {
 }
 
 double PathEstimator::TaughtHeading(double along_m) const {
-  // Beyond the end straight on: a cubic bends away.
+  // Beyond the end the path goes straight on, since a cubic bends away.
   if (along_m >= 0.0) {
     return route::HeadingAt(segment_.heading, std::min(along_m, segment_.length_m));
   }
@@ -137,9 +137,9 @@ double PathEstimator::TaughtTurn(double from_m, double to_m) const {
   return TaughtHeading(to_m) - TaughtHeading(from_m);
 }
 
-// A feature's taught place: from the knots before and behind, each moved to where its depth and the
-// heading taught here put it. On a straight line between them it would lag behind its true track,
-// which is bent outwards, and in a bend to the side.
+// Returns a feature's taught place from the knots before and behind, each moved to where its depth
+// and the heading taught here predict it. On a straight line between them it would lag behind its
+// true track, which is bent outwards, and in a bend to the side.
 route::TrackKnot PathEstimator::TaughtPlaceAt(std::size_t index, double along_m) const {
   const route::Feature& feature = segment_.features[index];
   const ScoutCamera& camera = flow_.camera();
@@ -160,7 +160,7 @@ route::TrackKnot PathEstimator::TaughtPlaceAt(std::size_t index, double along_m)
   return {0.0F, static_cast<float>(place.x()), static_cast<float>(place.y())};
 }
 
-// What it has learnt of its own camera's place on the robot stays true wherever that is.
+// The learnt place of its own camera on the robot stays true wherever the robot is.
 void PathEstimator::BeUnsure() {
   known_.reset();
   const double ahead_variance = covariance_(kAhead, kAhead);
@@ -187,7 +187,7 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
   }
   const double before_m = state_[kAlong];
   const double alpha = state_[kHeading];
-  // Off a bend's inside or outside, the path's metres are longer or shorter than the robot's.
+  // Inside or outside a bend, the path's metres are longer or shorter than the robot's.
   const double curvature =
       TaughtTurn(before_m - 0.5 * kTaughtCurvatureStep_m, before_m + 0.5 * kTaughtCurvatureStep_m) /
       kTaughtCurvatureStep_m;
@@ -201,9 +201,9 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
       aside_m * std::cos(alpha);
   state_[kHeading] += moved.heading_change_rad + state_[kBias] * moved.distance_m - turned;
 
-  // How far ahead the camera is, a bend of the path tells. Any other turn swings the camera just as
-  // much, but is made because the robot is, or is thought to be, off the path: what is wrong with
-  // its place there would be put down to the mount.
+  // A bend of the path tells how far ahead the camera is. Any other turn swings the camera just as
+  // much, but is made because the robot is, or seems to be, off the path, so an error of its place
+  // there would be attributed to the mount.
   const double change_rad = moved.heading_change_rad;
   const bool bends = std::abs(curvature) > options_.least_bend_per_m && !WasTurnedLately();
   const double bend_rad =
@@ -222,7 +222,7 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
   covariance_(kHeading, kHeading) += driven * Square(options_.heading_noise_rad);
   covariance_(kMagnification, kMagnification) +=
       driven * Square(options_.magnification_noise * state_[kMagnification]);
-  // Roll and pitch are each frame's own.
+  // Each frame has its own roll and pitch.
   covariance_.middleRows<2>(kRoll).setZero();
   covariance_.middleCols<2>(kRoll).setZero();
   covariance_(kRoll, kRoll) = Square(options_.roll_rad);
@@ -268,7 +268,7 @@ PathEstimator::Prediction PathEstimator::PredictFeature(std::size_t index,
   dv[kRoll] = u;
   dv[kPitch] = f;
   dv[kHeight] = f * rho;
-  // From the scout's lens to the follower's: magnified, and bent towards the edge.
+  // This goes from the scout's lens to the follower's: magnified, and bent towards the edge.
   const double d = state[kDistortion];
   const double width2 = Square(scout_width_px_);
   const double radius2 = (Square(scout_u) + Square(scout_v)) / width2;
@@ -317,7 +317,7 @@ PathEstimator::Equations PathEstimator::Linearise(const State& state, const Prio
     const double rv = feature.v_px - p.v_px;
     const double residual_px = std::hypot(ru, rv) / scale;
     Count(residual_px, options_.outlier_px, equations.agreement);
-    // Cauchy's weight: a mismatch counts for little, wherever it is.
+    // This is Cauchy's weight: a mismatch counts for little, wherever it is.
     const double robust = 1.0 / (1.0 + Square(residual_px / cauchy_px));
     const double noise_u = Square(scale * options_.feature_noise_px) + Square(p.depth_sigma_px);
     const double noise_v = Square(scale * options_.feature_noise_px);

@@ -9,9 +9,9 @@ namespace trailcast::replay {
 namespace {
 
 constexpr double kSoonCurvatureStep_m = 0.05;
-constexpr double kTightest = 0.5;  // of a bend's radius
+constexpr double kTightest = 0.5;  // share of a bend's radius
 constexpr double kWidest = 2.0;
-constexpr double kTurnTime_s = 0.5;  // over which turn_rad is the heading change asked for
+constexpr double kTurnTime_s = 0.5;  // turn_rad is the heading change over this time
 
 }  // namespace
 
@@ -25,7 +25,7 @@ void PathFollower::Begin(const route::Segment& segment) {
     estimator_.Begin(AsForward(segment));
     segment_ = segment;
   } else {
-    // A robot is put to the route's start with its axle.
+    // A robot at the route's start has its axle there.
     const bool at_start = !begun_;
     BeginAt(segment, 0.0);
     if (at_start) estimator_.StartAt(AsForward(segment));
@@ -38,7 +38,7 @@ void PathFollower::Learn(const route::Segment& segment) { estimator_.Learn(AsFor
 
 PathOffset PathFollower::offset() const {
   PathOffset offset = estimator_.offset();
-  // A camera's place that is but guessed would shift where the robot stops.
+  // A guessed place of the camera would shift where the robot stops.
   offset.along_m = Driven_m(estimator_.KnowsAhead() ? offset.along_m : estimator_.camera_along_m());
   return offset;
 }
@@ -84,7 +84,8 @@ FollowStep PathFollower::TurnOnTheSpot(const std::vector<route::TrackedFeature>&
   return step;
 }
 
-// By the bend where the robot will be when it does what it is told, but not beyond the segment.
+// Uses the bend at the place where the robot will carry the command out, but not beyond the
+// segment.
 double PathFollower::TurnRate(const PathOffset& along, double speed_mps, double aside_m) const {
   const double there_m = along.along_m + speed_mps * options_.base_delay_s;
   const double soon_m = segment_.reverse

@@ -14,7 +14,7 @@ constexpr double kShortestBase_px = 15.0;  // the direction of a shorter pair is
 
 double Direction(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
-// Least-squares rotation of the centred points (Umeyama's, in the plane).
+// Returns the least-squares rotation of the centred points (Umeyama's, in the plane).
 double RotationOf(std::span<const ImagePair> pairs, const std::vector<bool>& use, int count) {
   Eigen::Vector2d current = Eigen::Vector2d::Zero();
   Eigen::Vector2d stored = Eigen::Vector2d::Zero();

@@ -12,20 +12,21 @@
 namespace trailcast::replay {
 namespace {
 
-// Below, the flow of a turn is the same all over the picture.
+// Below this, the flow of a turn is equal all over the picture.
 constexpr double kLeastWidening = 1e-4;
-// What a turn takes further round is no more in front of the camera.
+// A turn by more than this takes a feature out of the camera's half of the world.
 constexpr double kSideways_rad = 1.4;
 
 constexpr int kFlowIterations = 6;
-constexpr int kFitsBeforeNoise = 2;  // until what is left over is noise
+constexpr int kFitsBeforeNoise = 2;  // then residuals are noise
 constexpr double kNearest_m = 0.3;   // beyond the segment's end; nothing nearer is ever in view
 constexpr double kCauchySigmas = 3.0;
 constexpr double kSmallestShrink = 0.05;
 constexpr std::size_t kFewestWithASpread = 5;
-constexpr double kMedianOfUnit = 1.18;  // of the lengths of vectors with unit noise in u and in v
+constexpr double kMedianOfUnit = 1.18;  // median length of vectors with unit noise in u and in v
 constexpr std::size_t kFewestToTellNoise = 20;
-constexpr double kLeastFocalSigma = 0.04;  // however many bends there were: their odometry erred
+// No number of bends tells it better, since their odometry has errors.
+constexpr double kLeastFocalSigma = 0.04;
 
 }  // namespace
 
@@ -47,7 +48,7 @@ void DrawTogether(std::vector<InverseDepth>& depths) {
     weights += weight;
     mean_per_m += (depth.at_start_per_m - mean_per_m) * weight / weights;
   }
-  // The sure ones tell the spread; the square of the weight is what it takes for the least noise.
+  // The sure ones tell the spread. The square of the weight makes its noise least.
   double excess = 0.0;
   double squares = 0.0;
   for (const InverseDepth& depth : depths) {
@@ -65,8 +66,8 @@ void DrawTogether(std::vector<InverseDepth>& depths) {
   }
 }
 
-// One landmark's share of the normal equations: of the unknowns all have in common, of its own
-// inverse depth, and between the two.
+// This is one landmark's share of the normal equations: of the common unknowns, of its own inverse
+// depth, and between the two.
 struct TaughtFlow::Equations {
   Matrix common = Matrix::Zero();
   Vector common_gradient = Vector::Zero();
@@ -182,7 +183,7 @@ double TaughtFlow::NoiseOf(const Fit& fit) const {
   return std::max(noise_px_, options_.noise_together * Median(std::move(off_px)) / kMedianOfUnit);
 }
 
-// One step of Gauss-Newton; the depths are eliminated first and follow from the rest.
+// This is one step of Gauss-Newton. The depths are eliminated first and follow from the rest.
 void TaughtFlow::Improve(Fit& fit, double length_m) const {
   Matrix& information = fit.information;
   information.setZero();
@@ -231,7 +232,7 @@ TaughtFlow::Fit TaughtFlow::FitTo(const route::Segment& segment, Noise noise) co
 void TaughtFlow::Learn(const route::Segment& segment) {
   const Fit fit = FitTo(segment, Noise::kAsMeasured);
   if (!fit.unknowns.allFinite()) return;
-  // The error of the segment's own heading is no longer of interest.
+  // The error of the segment's own heading is not needed any more.
   const Eigen::Matrix<double, kCamera, kHeading> mixed =
       fit.information.topRightCorner<kCamera, kHeading>();
   const Eigen::Matrix<double, kHeading, kHeading> own =

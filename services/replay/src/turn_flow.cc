@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kLeastTurn_rad = 0.1;
 constexpr std::size_t kFewest = 12;
-constexpr double kUsualSigma = 0.5;     // relative; of any robot's camera from the usual one
-constexpr double kNoise_share = 0.005;  // of the width: a tracker's drift
+constexpr double kUsualSigma = 0.5;     // relative; of a robot's camera from the usual one
+constexpr double kNoise_share = 0.005;  // share of the width: a tracker's drift
 constexpr double kCauchy_share = 0.01;
 constexpr int kTurnIterations = 10;
 constexpr double kStep = 1e-4;
-// Wheels slip, and a camera that does not sit above the axle is carried aside by a turn, which
-// moves what is near.
+// Wheels slip, and a turn carries a camera aside that is not above the axle, which moves near
+// features.
 constexpr double kLeastSigma = 0.05;
 
 }  // namespace

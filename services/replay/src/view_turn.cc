@@ -8,8 +8,8 @@
 namespace trailcast::replay {
 namespace {
 
-// How much further to the right the features are than in the key view: the median, which few
-// mismatches and what is near to one side do not move.
+// Returns how much further to the right the features are than in the key view. It is the median, so
+// a few mismatches and near features on one side do not move it.
 double MedianShift_px(const std::vector<FunnelPair>& pairs) {
   std::vector<double> shifts_px;
   shifts_px.reserve(pairs.size());
@@ -25,7 +25,7 @@ ViewTurn TurnTowards(double aim, std::span<const SeenKeyView> seen, int scout_wi
                      const ViewTurnOptions& options) {
   const SeenKeyView* before = nullptr;
   const SeenKeyView* after = nullptr;
-  // The nearest; of those of one place, the one that is recognised best.
+  // The nearest one counts and, of those at one place, the best recognised one.
   const auto rank = [&](const SeenKeyView& view) {
     return std::pair(std::abs(view.along - aim), -std::ssize(view.pairs));
   };
