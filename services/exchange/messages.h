@@ -250,7 +250,7 @@ struct RouteFollower {
   AgentId agent{};
   double along_m = 0.0;
   double speed_mps = 0.0;
-  // false if its agent has ended or is out of reach; the robot may still stand there
+  // It is false if its agent has ended or is out of reach; the robot may still stand there.
   bool heard = true;
   std::chrono::milliseconds age{0};  // since it reported that place
   bool operator==(const RouteFollower&) const = default;
@@ -292,7 +292,7 @@ struct DriveCommand {
   AgentId client{};         // the client that drives
   double linear_mps = 0.0;  // forwards
   double turn_radps = 0.0;  // to the left
-  // by the client's clock, from any origin; it shows which commands are late
+  // This is by the client's clock, from any origin, and shows which commands are late.
   std::uint64_t sent_ms = 0;
   bool operator==(const DriveCommand&) const = default;
 };

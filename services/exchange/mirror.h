@@ -57,7 +57,7 @@ class Mirror {
 
   struct Other {
     bool there = true;
-    // parts of all routes that differed when they were last compared
+    // These parts of all routes differed when they were last compared.
     std::size_t differing = kParts;
     std::optional<Time> differs_since{};  // empty while both hold the same
     std::uint64_t compared = 0;           // number of comparisons
@@ -107,7 +107,7 @@ class Mirror {
   Time see_due_{};
   std::optional<Time> said_at_;
   bool say_soon_ = false;
-  // the next part to compare of those that differ, which take turns
+  // This is the next part to compare of those that differ, which take turns.
   std::size_t first_compared_ = 0;
   std::map<route::RouteKey, std::uint64_t> wanted_;  // routes, with the others' digest of each
   std::map<route::RouteKey, Wanted> under_way_;

@@ -33,7 +33,7 @@ class MissingRoutes {
   };
 
   std::map<AgentId, std::vector<route::RouteKey>> told_;
-  // routes of which it is not known that they are here
+  // It is not known of these routes that they are here.
   std::map<route::RouteKey, Asked> held_elsewhere_;
 };
 

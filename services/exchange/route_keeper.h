@@ -34,7 +34,7 @@ struct RouteKeeperOptions {
   std::chrono::milliseconds receipt_again{500};      // while nothing new is durable
   std::chrono::milliseconds note_again{10'000};      // between reports of the same trouble
   std::chrono::milliseconds over_quota_told{5000};   // after the last piece was refused
-  // before the store is read again for what others put there
+  // The store is read again after this for what others put there.
   std::chrono::milliseconds refresh_again{1000};
   // A slow link holds the caller up for this much, and nothing is received meanwhile.
   std::size_t answer_bytes_per_tick = 128U << 10U;
@@ -209,7 +209,7 @@ class RouteKeeper {
   std::vector<route::SegmentPiece> appended_;  // not yet returned by TakeAppended
   std::vector<Message> replies_;               // to the catalog's clients; also digests
   Time grown_due_{};                           // when infos of growing routes are stored again
-  // not yet returned by TakeDamaged
+  // TakeDamaged has not returned these yet.
   std::vector<std::pair<route::RouteKey, SegmentIndex>> damaged_;
   AnswerQueue answers_;
   StandIn stand_in_;

@@ -22,7 +22,7 @@ class WantList {
     // These are for silence, not for a slow link: while answers come, it waits for the ones behind
     // them.
     std::chrono::milliseconds retry_after{1000};  // above any round trip with a busy holder
-    // a holder that returns is noticed within this time
+    // A holder that returns is noticed within this time.
     std::chrono::milliseconds retry_at_most{8000};
     // So many are under way at first. The number grows by one with each answer within
     // `quick_answer`, shrinks by one with each that took longer than `slow_answer`, and is halved

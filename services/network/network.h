@@ -153,7 +153,8 @@ class Network {
   // These belong to the node of the same number. They are apart, since a search reads all of them.
   struct Exits {
     double ahead = 0.0;  // cost to the route's next node; infinite at its last
-    // index into leaps_ of the first junction that leads from here; the next node's ends them
+    // This is the index into leaps_ of the first junction that leads from here. The next node's
+    // index ends them.
     Index first_leap = 0;
     bool back = false;  // the section before it may be driven backwards
   };

@@ -56,7 +56,7 @@ struct Edit {
   };
   Kind kind = Kind::kJoin;
   Joint joint{};  // of kJoin and kPart; of kConfirm and kRefuse without `all`
-  // of kClose, kOpen, kBack, kAhead and kLimit; of kWide and kVacate the section
+  // This is of kClose, kOpen, kBack, kAhead and kLimit. It is the section of kWide and kVacate.
   Condition condition{};
   Lane lane{};         // of kNarrow
   NamedPlace named{};  // of kName; only the name of kForget
@@ -101,7 +101,7 @@ struct Listed {
   std::optional<Edit> edit{};
   std::optional<Proposal> proposal{};  // "proposed join PLACE PLACE .. confidence F"
   std::optional<LostStretch> lost{};   // "lost ROUTE FROM..TO N of M cost F"
-  // robots in a narrow place: "narrow .., taken by robot1 robot2"
+  // These robots are in a narrow place: "narrow .., taken by robot1 robot2".
   std::vector<std::string> taken_by{};
 };
 [[nodiscard]] Listed ParseListed(std::string_view line);

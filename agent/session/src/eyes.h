@@ -36,7 +36,7 @@ struct Seen {
   // This is the better one of these.
   std::optional<motion::OdometryIncrement> driven;
   motion::OdometryIncrement unknown{};  // see Observation::unknown
-  // see Observation::stands; valid until the next
+  // See Observation::stands. It is valid until the next frame.
   const std::vector<Eigen::Vector2d>* stands = nullptr;
   double dt_s = 0.0;      // since the last frame
   double looked_s = 0.0;  // dt_s, but no longer than kLongestFrame_s

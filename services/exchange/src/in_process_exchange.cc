@@ -23,7 +23,7 @@ class Inbox {
  public:
   void Push(Topic topic, const std::string& instance, const Message& message) {
     auto& queue = queues_[static_cast<std::size_t>(topic)];
-    // keep-last 1: the newer sample replaces one that was not taken in time
+    // With keep-last 1 the newer sample replaces one that was not taken in time.
     if (!instance.empty()) {
       std::erase_if(queue, [&](const Entry& entry) { return entry.instance == instance; });
     }

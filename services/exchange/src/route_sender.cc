@@ -68,7 +68,7 @@ void RouteSender::HandleRequest(const SegmentRequest& request, Time now) {
 
 void RouteSender::TellDigests(const std::vector<SegmentIndex>& indices) {
   for (const SegmentIndex index : indices) {
-    // the link is blocked; an agent that lacks it asks again
+    // The link is blocked, and an agent that lacks it asks again.
     if (to_stream_.size() >= kMaxPiecesPerBatch) return;
     const route::Digest* digest = digests_.Find(index);
     if (digest != nullptr) to_stream_.push_back({info_.key, index, *digest, {}});

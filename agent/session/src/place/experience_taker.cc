@@ -36,7 +36,7 @@ constexpr std::size_t kFewestFound = 8;
 constexpr double kLeastFoundShare = 0.2;
 // These are in pixels of a scout's picture 320 px wide.
 constexpr double kEdge_px = 8.0;
-// most found features are within this of their taught places
+// Most found features are within this of their taught places.
 constexpr double kFoundWithin_px = 2.5;
 constexpr double kMovesAlike_px = 2.5;   // with the found ones, from knot to knot
 constexpr double kLeastMotion_px = 1.5;  // a feature that stays in place may be dirt on the lens
