@@ -66,10 +66,18 @@ struct ReplayMethodOptions {
   bool take_experience = false;
 };
 
-// Without odometry, in the route or on the robot, the funnel lane alone steers by any method.
-// `known` says that the magnification comes from an earlier run, and not from the pictures' widths.
+// What tells a follower how far it has come.
+enum class WayBy {
+  kNothing,
+  kOdometry,
+  kCommands,  // what its base was told to drive
+  kSight,     // either, along a route whose metres are those that its scout's pictures told
+};
+
+// By nothing, the funnel lane alone steers by any method. `known` says that the magnification comes
+// from an earlier run, and not from the pictures' widths.
 [[nodiscard]] std::unique_ptr<replay::Follower> MakeFollower(const ReplayMethodOptions& options,
-                                                             bool by_odometry, int scout_width_px,
+                                                             WayBy way, int scout_width_px,
                                                              double magnification, bool known);
 
 }  // namespace trailcast::agent

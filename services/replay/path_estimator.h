@@ -44,6 +44,11 @@ struct PathEstimatorOptions {
   double mount_yaw_rad = 0.035;           // between the scout's camera mount and this robot's
   double mount_height_m = 0.15;           // between them too
   double heading_bias_rad_per_m = 0.008;  // of this robot's odometry against the scout's
+  // How many of the route's metres each of the odometry's is, and how many of its radians, as
+  // logarithms: their doubt, and the first one's random walk per root metre.
+  double way_log = 0.01;
+  double way_log_noise = 0.001;
+  double turn_log = 0.01;
   // These are the odometry's noise, per root metre, and further changes.
   double along_noise = 0.05;
   double left_noise_m = 0.01;
@@ -136,6 +141,9 @@ class PathEstimator {
     last_look_.reset();
     known_.reset();
   }
+  // How many of the route's metres each of the odometry's is, and how many of its radians.
+  [[nodiscard]] double WayScale() const;
+  [[nodiscard]] double TurnScale() const;
   [[nodiscard]] FocalLength focal() const;  // of its own camera
   [[nodiscard]] double distortion() const { return state_[kDistortion]; }
   [[nodiscard]] double mount_yaw_rad() const { return state_[kMountYaw]; }
@@ -164,6 +172,8 @@ class PathEstimator {
     kMountYaw,
     kHeight,
     kBias,
+    kWay,
+    kTurn,
     kAhead,
     kCarried,
     kRoll = kCarried,

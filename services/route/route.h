@@ -53,6 +53,14 @@ struct HeadingPolynomial {
   bool operator==(const HeadingPolynomial&) const = default;
 };
 
+// How a scout without odometry drove a segment, as its pictures tell (visual_odometry.h).
+struct SeenWay {
+  double length_m = 0.0;      // true up to one factor of the whole route; never 0
+  HeadingPolynomial heading;  // against such metres
+
+  bool operator==(const SeenWay&) const = default;
+};
+
 // What was taught between two milestones. Odometry is local to the segment (metres, radians).
 struct Segment {
   SegmentIndex index;
@@ -61,9 +69,8 @@ struct Segment {
   double heading_change_rad = 0.0;     // counter-clockwise positive
   double heading_variation_rad = 0.0;  // largest |heading| inside the segment: sigma_h
   HeadingPolynomial heading;
-  // Without odometry: how far the picture turned, against seconds in motion (picture_turn.h).
-  std::optional<HeadingPolynomial> seen_heading;
-  double duration_s = 0.0;  // how long teaching took; speed is length over duration
+  std::optional<SeenWay> seen_way;  // only without odometry
+  double duration_s = 0.0;          // how long teaching took; speed is length over duration
   // Turned on the spot before the segment's first image, counter-clockwise positive: the segment
   // begins where the last one ended, and heads so much further to the left.
   double turn_before_rad = 0.0;
@@ -74,6 +81,8 @@ struct Segment {
   std::vector<KeyView> key_views;  // in rising s; none in segments taught before there were any
   Terrain terrain;
 
+  // How long the segment is for people: in metres, or without odometry in seconds of teaching.
+  [[nodiscard]] double extent() const { return has_odometry ? length_m : duration_s; }
   [[nodiscard]] double speed_mps() const { return duration_s > 0.0 ? length_m / duration_s : 0.0; }
   bool operator==(const Segment&) const = default;
 };

@@ -9,6 +9,7 @@
 #include "services/route/tracked_feature.h"
 #include "services/teach/heading_fit.h"
 #include "services/teach/spot_turn.h"
+#include "services/teach/visual_odometry.h"
 
 namespace trailcast::teach {
 
@@ -58,7 +59,8 @@ class SegmentRecorder {
       : options_(options),
         width_px_(width_px),
         still_px_(options.still_px_at_320 * width_px / 320.0),
-        next_index_(options.first_index) {}
+        next_index_(options.first_index),
+        visual_odometry_(width_px) {}
 
   // The segment's first image: its features, the strongest first, and the odometry pose at that
   // moment, if any.
@@ -112,6 +114,8 @@ class SegmentRecorder {
   enum class Way { kOn, kBehind, kOther };
   [[nodiscard]] Way Follow(const motion::Pose2& from, const motion::Pose2& now,
                            motion::OdometryIncrement& step);
+  void DriveBySight();
+  [[nodiscard]] std::vector<HeadingSample> Headings() const;
   [[nodiscard]] std::size_t End() const;
   [[nodiscard]] Moment PlaceOf(const motion::Pose2& back) const;
   void PutBefore(std::vector<route::View> views);
@@ -137,6 +141,8 @@ class SegmentRecorder {
   // Where the robot was before it went back a little, until it is there again.
   std::optional<motion::Pose2> furthest_;
   std::optional<Moment> other_way_from_;  // the next segment goes, beside this place of this one
+
+  VisualOdometry visual_odometry_;  // without odometry
 
   SpotTurnWatch turn_;
   bool turning_ = false;       // and the segment has ended

@@ -22,6 +22,13 @@ constexpr std::array kMethods = {NamedMethod{"default", ReplayMethod::kDefault},
 
 constexpr double kKnownMagnification = 0.005;  // relative, for an earlier run's magnification
 constexpr double kBangBang_radps = 0.35;
+// Doubts of the scales of way and turn, as logarithms: where a base does what it is told, and where
+// the scout's own metres are known by sight alone.
+constexpr double kTold_log = 0.1;
+constexpr double kBySight_log = 0.6;
+constexpr double kBySight_log_noise = 0.05;
+constexpr double kBySightTurn_log = 0.2;
+constexpr double kBySightAhead_m = 0.05;
 
 }  // namespace
 
@@ -49,15 +56,22 @@ Result<ReplayMethod> FindReplayMethod(const std::string& name) {
               fmt::join(ReplayMethodNames(), ", "));
 }
 
-std::unique_ptr<replay::Follower> MakeFollower(const ReplayMethodOptions& options, bool by_odometry,
+std::unique_ptr<replay::Follower> MakeFollower(const ReplayMethodOptions& options, WayBy way,
                                                int scout_width_px, double magnification,
                                                bool known) {
-  if (options.method == ReplayMethod::kDefault && by_odometry) {
+  if (options.method == ReplayMethod::kDefault && way != WayBy::kNothing) {
     replay::PathFollowerOptions path;
     path.limits = options.limits;
     path.speed_factor = options.speed_factor;
     if (known) path.estimator.start_magnification = kKnownMagnification;
     path.estimator.camera_ahead_m = options.camera_ahead_m;
+    if (way == WayBy::kCommands) path.estimator.way_log = path.estimator.turn_log = kTold_log;
+    if (way == WayBy::kSight) {
+      path.estimator.way_log = kBySight_log;
+      path.estimator.turn_log = kBySightTurn_log;
+      path.estimator.way_log_noise = kBySight_log_noise;
+      path.estimator.untold_ahead_m = kBySightAhead_m;
+    }
     return std::make_unique<replay::PathFollower>(scout_width_px, magnification, path);
   }
   replay::FunnelFollowerOptions funnel;

@@ -35,7 +35,6 @@ constexpr double kBelieved = 0.3;
 constexpr int kFewTracked = 8;  // the views are asked before these are missed
 constexpr double kThere = 0.5;  // distance from the belief's place, in the route's units
 constexpr double kTurns_rad_per_m = 1.0;
-constexpr double kUnknownScale = 0.3;  // of a distance
 
 vision::IntakeOptions IntakeOf(const ReplayMethodOptions& options) {
   vision::IntakeOptions intake = options.intake;
@@ -68,7 +67,6 @@ struct ReplaySession::State {
   void NoteTime(SensorTime stamp);
   void StartPlace(int width_px);
   bool Locate(const Seen& seen);  // true if it examined what is recognised
-  void ToRoute(Seen& seen) const;
   void Doubt(Seen& seen) const;
   [[nodiscard]] Evidence EvidenceOf(const ReplayStep& step) const;
   [[nodiscard]] ReplayStep Follow(const Seen& seen, bool looked);
@@ -165,14 +163,6 @@ Evidence ReplaySession::State::EvidenceOf(const ReplayStep& step) const {
   return step.command == motion::VelocityCommand{} ? Evidence::kNothing : Evidence::kMotion;
 }
 
-// Where the scout's own metres are not known, this converts the robot's metres to the route's.
-void ReplaySession::State::ToRoute(Seen& seen) const {
-  if (place.metric() || !seen.driven) return;
-  seen.driven->distance_m *= place.ScaleOfWay();
-  seen.unknown.distance_m = std::hypot(place.ScaleOfWay() * seen.unknown.distance_m,
-                                       kUnknownScale * seen.driven->distance_m);
-}
-
 // Where the pictures contradict odometry, the robot may have come as far as the scout did in that
 // time, with the turns that this takes, beside what odometry tells.
 void ReplaySession::State::Doubt(Seen& seen) const {
@@ -217,7 +207,6 @@ ReplayStep ReplaySession::State::Follow(const Seen& seen, bool looked) {
     return views;
   }
   ReplayStep features = by_features->Report(by_features->Step(seen, of_features), of_features);
-  if (!place.metric()) features.command.angular_radps *= place.ScaleOfWay();
   steers_by_views = false;
   standing = of_features;
   if (AsPrinted(options.method)) return features;
@@ -329,7 +318,6 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   if (s.standing.state == ReplayState::kArrived || s.misturned) return s.last;
   if (s.route.segments().empty()) return s.by_features->Report({}, s.of_features);
   const bool looked = s.Locate(*seen);
-  s.ToRoute(*seen);
   s.Doubt(*seen);
   if (s.eyes.mount().roll_by_told_deg().value_or(0.0) != 0.0) return s.last = s.StandMisturned();
   if (const auto turn_deg = s.upright.Look(*seen, s.place)) {

@@ -51,7 +51,7 @@ void KeepEverySecond(std::vector<ShapePoint>& points) {
 }  // namespace
 
 void ShapeMaker::Add(const route::Segment& segment) {
-  const double extent = segment.has_odometry ? segment.length_m : segment.duration_s;
+  const double extent = segment.extent();
   if (shape_.segments == 0) {
     shape_.has_odometry = segment.has_odometry;
     if (segment.has_odometry) shape_.points.push_back(at_);

@@ -41,17 +41,13 @@ int CountSame(const std::vector<route::Feature>& a, const std::vector<route::Fea
   return same;
 }
 
-double ExtentOf(const Segment& segment) {
-  return segment.has_odometry ? segment.length_m : segment.duration_s;
-}
-
 std::vector<Part> PartsOf(std::span<const Segment> segments) {
   std::vector<Part> parts;
   double along = 0.0;
   for (const Segment& segment : segments) {
     Part& part = parts.emplace_back();
     part.begin = along;
-    along += ExtentOf(segment);
+    along += segment.extent();
     part.end = along;
   }
   return parts;
@@ -313,7 +309,7 @@ Comparison CompareAlong(const ComparisonRoute& a, const ComparisonRoute& b, bool
                         .metric = IsMetric(a.segments),
                         .metric_b = IsMetric(b.segments),
                         .parts = {}};
-  for (const Segment& segment : a.segments) comparison.length += ExtentOf(segment);
+  for (const Segment& segment : a.segments) comparison.length += segment.extent();
   comparison.parts =
       NotShort(comparison.refreshed ? CompareRefreshed(a.segments, b.segments)
                                     : CompareByViews(a, b, same_camera, whole, options));

@@ -38,7 +38,7 @@ void RouteViews::Add(const route::Segment& segment) {
   constexpr double kLeastTurn_rad = 0.1;
   constexpr double kLeastExtent = 1e-3;
   if (views_.empty() && along_ == begin_) metric_ = segment.has_odometry;
-  const double extent = segment.has_odometry ? segment.length_m : segment.duration_s;
+  const double extent = segment.extent();
   heading_ += segment.turn_before_rad;
   const auto change = ChangeAlong(segment);
   const double growth =

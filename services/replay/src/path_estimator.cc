@@ -42,6 +42,8 @@ PathEstimator::PathEstimator(int scout_width_px, double magnification,
   state_[kAhead] = options_.camera_ahead_m.value_or(0.0);
   covariance_(kAhead, kAhead) =
       Square(options_.camera_ahead_m ? options_.told_ahead_m : options_.untold_ahead_m);
+  covariance_(kWay, kWay) = Square(options_.way_log);
+  covariance_(kTurn, kTurn) = Square(options_.turn_log);
   BeUnsure();
 }
 
@@ -75,6 +77,10 @@ void PathEstimator::BeUnsureWhereAlong(const RoughPlace& rough) {
   covariance_(kMagnification, kMagnification) =
       Square(options_.found_magnification * state_[kMagnification]);
 }
+
+double PathEstimator::WayScale() const { return std::exp(state_[kWay]); }
+
+double PathEstimator::TurnScale() const { return std::exp(state_[kTurn]); }
 
 FocalLength PathEstimator::focal() const {
   const FocalLength scouts = flow_.focal();
@@ -149,9 +155,7 @@ route::TrackKnot PathEstimator::TaughtPlaceAt(std::size_t index, double along_m)
     const double knot_m = knot.s * segment_.length_m;
     const double nearer = depths_[index].Growth(knot_m, along_m);
     const Eigen::Vector2d place = ahead + nearer * (Eigen::Vector2d(knot.u_px, knot.v_px) - ahead);
-    const double turn_rad = heading_rad - route::HeadingAt(segment_.heading, knot_m);
-    return place +
-           turn_rad * Eigen::Vector2d(camera.TurnU(place.x()), camera.TurnV(place.x(), place.y()));
+    return camera.Turned(place, heading_rad - route::HeadingAt(segment_.heading, knot_m));
   };
   const double s = std::max(0.0, along_m) / std::max(1e-3, segment_.length_m);
   const route::TrackStretch stretch = route::StretchAt(feature, s);
@@ -160,12 +164,13 @@ route::TrackKnot PathEstimator::TaughtPlaceAt(std::size_t index, double along_m)
   return {0.0F, static_cast<float>(place.x()), static_cast<float>(place.y())};
 }
 
-// The learnt place of its own camera on the robot stays true wherever the robot is.
+// What it has learnt of its odometry, and of its camera's place on the robot, stays true wherever
+// the robot is.
 void PathEstimator::BeUnsure() {
   known_.reset();
-  const double ahead_variance = covariance_(kAhead, kAhead);
+  const Eigen::Vector3d learnt = covariance_.diagonal().segment<3>(kWay);
   covariance_.setZero();
-  covariance_(kAhead, kAhead) = ahead_variance;
+  covariance_.diagonal().segment<3>(kWay) = learnt;
   covariance_(kLeft, kLeft) = Square(options_.start_left_m);
   covariance_(kHeading, kHeading) = Square(options_.start_heading_rad);
   covariance_(kAlong, kAlong) = Square(options_.start_along_m);
@@ -185,6 +190,8 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
     last_look_->moved_m += std::abs(moved.distance_m);
     last_look_->turned_rad += std::abs(moved.heading_change_rad);
   }
+  const double distance_m = WayScale() * moved.distance_m;
+  const double change_rad = TurnScale() * moved.heading_change_rad;
   const double before_m = state_[kAlong];
   const double alpha = state_[kHeading];
   // Inside or outside a bend, the path's metres are longer or shorter than the robot's.
@@ -192,34 +199,37 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
       TaughtTurn(before_m - 0.5 * kTaughtCurvatureStep_m, before_m + 0.5 * kTaughtCurvatureStep_m) /
       kTaughtCurvatureStep_m;
   const double stretch = std::clamp(1.0 - curvature * state_[kLeft], 0.5, 2.0);
-  const double aside_m = state_[kAhead] * moved.heading_change_rad;  // of the camera
-  const double along_m = (moved.distance_m * std::cos(alpha) - aside_m * std::sin(alpha)) / stretch;
+  const double aside_m = state_[kAhead] * change_rad;  // of the camera
+  const double along_m = (distance_m * std::cos(alpha) - aside_m * std::sin(alpha)) / stretch;
   const double turned = TaughtTurn(before_m, before_m + along_m);
   state_[kAlong] += along_m;
   state_[kLeft] +=
-      moved.distance_m * std::sin(alpha + 0.5 * moved.heading_change_rad - 0.5 * turned) +
-      aside_m * std::cos(alpha);
-  state_[kHeading] += moved.heading_change_rad + state_[kBias] * moved.distance_m - turned;
+      distance_m * std::sin(alpha + 0.5 * change_rad - 0.5 * turned) + aside_m * std::cos(alpha);
+  state_[kHeading] += change_rad + state_[kBias] * distance_m - turned;
 
   // A bend of the path tells how far ahead the camera is. Any other turn swings the camera just as
   // much, but is made because the robot is, or seems to be, off the path, so an error of its place
   // there would be attributed to the mount.
-  const double change_rad = moved.heading_change_rad;
   const bool bends = std::abs(curvature) > options_.least_bend_per_m && !WasTurnedLately();
   const double bend_rad =
       bends ? std::clamp(turned, std::min(0.0, change_rad), std::max(0.0, change_rad)) : 0.0;
   Covariance f = Covariance::Identity();
-  f(kLeft, kHeading) = moved.distance_m;
+  f(kLeft, kHeading) = distance_m;
+  f(kLeft, kWay) = distance_m * std::sin(alpha);
+  f(kAlong, kWay) = distance_m * std::cos(alpha) / stretch;
+  f(kHeading, kWay) = -turned;
+  f(kHeading, kTurn) = change_rad;
   f(kLeft, kAhead) = bend_rad * std::cos(alpha);
   f(kAlong, kAhead) = -bend_rad * std::sin(alpha) / stretch;
-  f(kHeading, kBias) = moved.distance_m;
+  f(kHeading, kBias) = distance_m;
   covariance_ = f * covariance_ * f.transpose();
   covariance_(kLeft, kLeft) += Square(change_rad - bend_rad) * covariance_(kAhead, kAhead);
-  const double driven = std::abs(moved.distance_m) + 0.2 * std::abs(change_rad);
+  const double driven = std::abs(distance_m) + 0.2 * std::abs(change_rad);
   covariance_(kAlong, kAlong) += driven * Square(options_.along_noise);
   covariance_(kLeft, kLeft) +=
       driven * (Square(options_.left_noise_m) + Square(options_.left_noise_share * state_[kLeft]));
   covariance_(kHeading, kHeading) += driven * Square(options_.heading_noise_rad);
+  covariance_(kWay, kWay) += std::abs(moved.distance_m) * Square(options_.way_log_noise);
   covariance_(kMagnification, kMagnification) +=
       driven * Square(options_.magnification_noise * state_[kMagnification]);
   // Each frame has its own roll and pitch.
@@ -234,8 +244,9 @@ void PathEstimator::Predict(const motion::OdometryIncrement& moved) {
 void PathEstimator::Widen(const motion::OdometryIncrement& unknown) {
   if (unknown.distance_m == 0.0 && unknown.heading_change_rad == 0.0) return;
   last_look_.reset();
-  covariance_(kAlong, kAlong) += Square(unknown.distance_m);
-  covariance_(kLeft, kLeft) += Square(unknown.distance_m * std::sin(unknown.heading_change_rad));
+  const double distance_m = WayScale() * unknown.distance_m;
+  covariance_(kAlong, kAlong) += Square(distance_m);
+  covariance_(kLeft, kLeft) += Square(distance_m * std::sin(unknown.heading_change_rad));
   covariance_(kHeading, kHeading) += Square(unknown.heading_change_rad);
 }
 

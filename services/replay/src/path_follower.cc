@@ -116,7 +116,9 @@ FollowStep PathFollower::Step(const FollowInput& input) {
   step.mount_yaw_rad = estimator_.mount_yaw_rad();
   const double ahead_mps = options_.speed_factor * segment_.speed_mps();
   const double speed_mps = segment_.reverse ? -ahead_mps : ahead_mps;
-  const double turn_rate = TurnRate(estimator_.offset(), speed_mps, input.aside_m);
+  const double turn_rate =
+      TurnRate(estimator_.offset(), estimator_.WayScale() * speed_mps, input.aside_m) /
+      estimator_.TurnScale();
   step.command = motion::Limit({speed_mps, turn_rate}, options_.limits);
   step.turn_rad = -turn_rate * kTurnTime_s;
   const double driven_m = Driven_m(estimator_.camera_along_m());

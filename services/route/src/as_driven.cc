@@ -9,15 +9,12 @@
 namespace trailcast::route {
 
 Segment AsDriven(Segment segment) {
-  if (segment.has_odometry || !segment.seen_heading || segment.duration_s <= 0.0) return segment;
+  if (segment.has_odometry || !segment.seen_way) return segment;
   constexpr int kSteps = 16;  // of a cubic's extremes
   segment.has_odometry = true;
-  segment.length_m = kUsualSpeed_mps * segment.duration_s;
-  double metres = 1.0;
-  for (std::size_t i = 0; i < segment.heading.c.size(); ++i) {
-    metres *= kUsualSpeed_mps;
-    segment.heading.c[i] = segment.seen_heading->c[i] / metres;
-  }
+  segment.length_m = segment.seen_way->length_m;
+  segment.duration_s = segment.length_m / kUsualSpeed_mps;
+  segment.heading = segment.seen_way->heading;
   segment.heading_change_rad = HeadingAt(segment.heading, segment.length_m);
   for (int i = 1; i <= kSteps; ++i) {
     const double heading_rad = HeadingAt(segment.heading, segment.length_m * i / kSteps);

@@ -129,6 +129,12 @@ void SetOdometry(const Segment& segment, format::v1::Odometry& out) {
   out.set_turn_before_centi_mrad(Quantise(segment.turn_before_rad, kStepsPerRadian));
 }
 
+void SetSeenWay(const SeenWay& way, format::v1::SeenWay& out) {
+  out.set_length_tenth_mm(
+      static_cast<std::uint32_t>(std::max(1, Quantise(way.length_m, kStepsPerMetre))));
+  for (const double c : way.heading.c) out.add_heading_polynomial(static_cast<float>(c));
+}
+
 std::uint32_t QuantiseAmount(double value, double steps_per_unit, std::uint32_t most) {
   return static_cast<std::uint32_t>(
       std::clamp<std::int64_t>(Quantise(value, steps_per_unit), 0, most));
@@ -186,6 +192,18 @@ Result<void> ReadOdometry(const format::v1::Odometry& in, Segment& segment) {
   segment.turn_before_rad = in.turn_before_centi_mrad() / kStepsPerRadian;
   segment.heading = *heading;
   return {};
+}
+
+Result<SeenWay> ReadSeenWay(const format::v1::SeenWay& in, const Segment& segment) {
+  if (segment.has_odometry || in.length_tenth_mm() == 0) {
+    return Fail(ErrorCode::kCorrupt,
+                "segment's way by sight is {:.4f} m long, {} odometry: it is longer than nothing, "
+                "and only there without odometry",
+                in.length_tenth_mm() / kStepsPerMetre, segment.has_odometry ? "with" : "without");
+  }
+  const auto heading = ReadHeading(in.heading_polynomial());
+  if (!heading) return tl::unexpected(heading.error());
+  return SeenWay{in.length_tenth_mm() / kStepsPerMetre, *heading};
 }
 
 // Every column must speak of the same number of features, and of knots.
@@ -368,9 +386,7 @@ Bytes Encode(const Segment& segment) {
   out.set_index(segment.index.value());
   out.set_duration_ms(QuantiseDuration(segment.duration_s));
   if (segment.has_odometry) SetOdometry(segment, *out.mutable_odometry());
-  if (segment.seen_heading) {
-    for (const double c : segment.seen_heading->c) out.add_seen_heading(static_cast<float>(c));
-  }
+  if (segment.seen_way) SetSeenWay(*segment.seen_way, *out.mutable_seen_way());
   const bool missed = std::any_of(segment.features.begin(), segment.features.end(),
                                   [](const Feature& f) { return f.missed > 0; });
   const bool described =
@@ -418,10 +434,10 @@ Result<Segment> Decode(std::span<const std::uint8_t> bytes) {
       return tl::unexpected(odometry.error());
     }
   }
-  if (in.seen_heading_size() > 0) {
-    auto heading = ReadHeading(in.seen_heading());
-    if (!heading) return tl::unexpected(heading.error());
-    segment.seen_heading = *heading;
+  if (in.has_seen_way()) {
+    auto way = ReadSeenWay(in.seen_way(), segment);
+    if (!way) return tl::unexpected(way.error());
+    segment.seen_way = *way;
   }
   segment.reverse = in.reverse();
   if (segment.reverse && (in.format_version() < 3 || !segment.has_odometry)) {

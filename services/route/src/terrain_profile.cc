@@ -33,7 +33,7 @@ void TakeUp(const Terrain& terrain, double length, TerrainStretch& stretch) {
 }  // namespace
 
 void TerrainProfile::Add(const Segment& segment) {
-  const double length = segment.has_odometry ? segment.length_m : segment.duration_s;
+  const double length = segment.extent();
   const double begin = stretches_.empty() ? 0.0 : stretches_.back().end;
   if (!stretches_.empty() && Alike(stretches_.back().terrain, segment.terrain)) {
     TakeUp(segment.terrain, length, stretches_.back());

@@ -244,6 +244,29 @@ std::size_t SegmentRecorder::End() const {
   return end;
 }
 
+// Gives each moment of a scout without odometry the place that its pictures tell.
+void SegmentRecorder::DriveBySight() {
+  std::vector<VisualOdometry::Moment> seen;
+  seen.reserve(moments_.size());
+  for (const Moment& moment : moments_) {
+    seen.push_back({Seconds(moment.moving), &moment.features, moment.heading_rad});
+  }
+  const std::vector<VisualOdometry::Place> places = visual_odometry_.Follow(seen);
+  for (std::size_t i = 0; i < moments_.size(); ++i) {
+    moments_[i].distance_m = places[i].way_m;
+    moments_[i].heading_rad = places[i].turned_rad;
+  }
+}
+
+std::vector<HeadingSample> SegmentRecorder::Headings() const {
+  std::vector<HeadingSample> headings;
+  headings.reserve(moments_.size());
+  for (const Moment& moment : moments_) {
+    headings.push_back({moment.distance_m, moment.heading_rad});
+  }
+  return headings;
+}
+
 std::optional<route::Segment> SegmentRecorder::Finish() {
   std::vector<route::View> later_views;
   for (std::size_t i = End(); i < moments_.size(); ++i) {
@@ -274,21 +297,14 @@ std::optional<route::Segment> SegmentRecorder::Finish() {
     segment.reverse = way_ < 0.0;
     if (other_way_from_)
       turn_before_rad_ = other_way_from_->heading_rad - moments_.back().heading_rad;
-    std::vector<HeadingSample> headings;
-    headings.reserve(moments_.size());
     for (const Moment& moment : moments_) {
       segment.heading_variation_rad =
           std::max(segment.heading_variation_rad, std::abs(moment.heading_rad));
-      headings.push_back({moment.distance_m, moment.heading_rad});
     }
-    segment.heading = FitHeading(headings);
+    segment.heading = FitHeading(Headings());
   } else {
-    std::vector<HeadingSample> headings;
-    headings.reserve(moments_.size());
-    for (const Moment& moment : moments_) {
-      headings.push_back({Seconds(moment.moving), moment.heading_rad});
-    }
-    segment.seen_heading = FitHeading(headings);
+    DriveBySight();
+    segment.seen_way = route::SeenWay{moments_.back().distance_m, FitHeading(Headings())};
   }
   const std::size_t most = MostFeatures(segment);
   const int knots = KnotsFor(segment.length_m);

@@ -52,7 +52,7 @@ void WeakPlaceFinder::AddView(double at, const route::KeyView& view, int fewest_
 }
 
 void WeakPlaceFinder::Add(const route::Segment& segment) {
-  const double extent = segment.has_odometry ? segment.length_m : segment.duration_s;
+  const double extent = segment.extent();
   const int fewest_in_common = segment.has_odometry ? kFewestInCommonWithOdometry : kFewestInCommon;
   for (const route::KeyView& view : ScoutViewsOf(segment)) {
     AddView(length_ + view.s * extent, view, fewest_in_common);

@@ -106,14 +106,14 @@ TEST(Codec, SegmentWithoutFeaturesOrOdometryComesBackUnchanged) {
   EXPECT_EQ(*decoded, segment);
 }
 
-TEST(Codec, HowFarThePictureTurnedComesBackWithoutOdometry) {
+TEST(Codec, TheWayBySightComesBackWithoutOdometry) {
   Segment segment = SampleSegment(7, 3);
   segment.has_odometry = false;
   segment.length_m = segment.heading_change_rad = segment.heading_variation_rad = 0.0;
   segment.heading = {};
   const std::size_t without = Encode(segment).size();
-  segment.seen_heading = HeadingPolynomial{{0.25, -0.5, 0.125}};
-  EXPECT_EQ(ThereAndBack(segment).size(), without + 14U);
+  segment.seen_way = SeenWay{0.75, {{0.25, -0.5, 0.125}}};
+  EXPECT_EQ(ThereAndBack(segment).size(), without + 19U);
 }
 
 TEST(Codec, LargestNumbersComeBackUnchanged) {

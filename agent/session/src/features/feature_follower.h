@@ -163,7 +163,7 @@ class FeatureFollower {
   // This one knows the route and is nowhere yet. It is kept to be copied, as long as it may be
   // needed.
   std::unique_ptr<replay::Follower> fresh_;
-  bool fresh_by_odometry_ = false;
+  WayBy fresh_by_ = WayBy::kNothing;
   std::unique_ptr<replay::Follower> follower_;  // made when the first segment begins
 };
 

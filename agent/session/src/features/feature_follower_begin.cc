@@ -58,14 +58,16 @@ void FeatureFollower::GoOnFrom(const LeftAt& left) {
 }
 
 const replay::Follower& FeatureFollower::Fresh(const route::Segment& first) {
-  const bool odometry = eyes_.knows_motion() && first.has_odometry;
-  if (fresh_ && fresh_by_odometry_ == odometry) return *fresh_;
+  const WayBy way = !eyes_.knows_motion() || !first.has_odometry ? WayBy::kNothing
+                    : !place_.metric()                           ? WayBy::kSight
+                    : eyes_.has_odometry()                       ? WayBy::kOdometry
+                                                                 : WayBy::kCommands;
+  if (fresh_ && fresh_by_ == way) return *fresh_;
   const auto known =
       place_finder_ && !place_finder_->told() ? place_finder_->left().magnification : std::nullopt;
   const double alike = static_cast<double>(search_.frame().width) / scout_width_px_;
-  fresh_ =
-      MakeFollower(options_, odometry, scout_width_px_, known.value_or(alike), known.has_value());
-  fresh_by_odometry_ = odometry;
+  fresh_ = MakeFollower(options_, way, scout_width_px_, known.value_or(alike), known.has_value());
+  fresh_by_ = way;
   const std::size_t learnt = std::min(route_.segments().size(), kMostLearnt);
   for (std::size_t i = 0; i < learnt; ++i) fresh_->Learn(route_.segments()[i]);
   return *fresh_;
