@@ -66,12 +66,12 @@ struct ReplayMethodOptions {
   bool take_experience = false;
 };
 
-// What tells a follower how far it has come.
+// The source that tells a follower how far it has come.
 enum class WayBy {
   kNothing,
   kOdometry,
   kCommands,  // what its base was told to drive
-  kSight,     // either, along a route whose metres are those that its scout's pictures told
+  kSight,     // either, along a route whose metres are known by the scout's pictures alone
 };
 
 // By nothing, the funnel lane alone steers by any method. `known` says that the magnification comes

@@ -15,7 +15,7 @@ namespace trailcast::image {
 // never makes it look different from the one before. A single picture is a run of one.
 class PictureRun {
  public:
-  // Whoever looks at the pictures reduces their longer side to `enough_px`. A JPEG is decoded to a
+  // The pictures' reader reduces their longer side to `enough_px`. A JPEG is decoded to a
   // half, a quarter or an eighth of its size as long as that much is left. With 0 none is reduced.
   explicit PictureRun(int enough_px = 0) : enough_px_(enough_px) {}
 

@@ -462,7 +462,8 @@ void DdsExchange::LookAtNetwork(Clock::time_point now) {
   }
 }
 
-// What was heard of a server that is elsewhere now is gone with it; others are told good-bye.
+// Looks whether a server that was given by name is elsewhere now. All that was heard of it is gone
+// then; the other members are told good-bye.
 void DdsExchange::LookForServers(Clock::time_point now) {
   const auto hears = [this](const std::string& address) {
     return arrivals_.IsPresent(ServerAt(address, options_.domain_id));

@@ -164,8 +164,8 @@ route::TrackKnot PathEstimator::TaughtPlaceAt(std::size_t index, double along_m)
   return {0.0F, static_cast<float>(place.x()), static_cast<float>(place.y())};
 }
 
-// What it has learnt of its odometry, and of its camera's place on the robot, stays true wherever
-// the robot is.
+// The learnt scales of its odometry and the learnt place of its camera on the robot stay true
+// wherever the robot is.
 void PathEstimator::BeUnsure() {
   known_.reset();
   const Eigen::Vector3d learnt = covariance_.diagonal().segment<3>(kWay);
