@@ -16,7 +16,7 @@ void Server::KeepLookingForJoints(std::chrono::steady_clock::time_point now) {
   if (!joints_ || !upkeep_->store_trouble().empty()) return;
   if (const auto turned = joints_->Turn(now); !turned) {
     const bool is_fault = turned.error().code == ErrorCode::kInternal;
-    spdlog::log(is_fault ? spdlog::level::err : spdlog::level::debug, "looking for joints: {}",
+    spdlog::log(is_fault ? spdlog::level::err : spdlog::level::debug, "looking for junctions: {}",
                 turned.error().message);
   }
   for (const Crossing& crossing : joints_->TakeCrossings()) Tell(crossing, now);
@@ -32,7 +32,7 @@ void Server::KeepLookingForJoints(std::chrono::steady_clock::time_point now) {
 void Server::KeepWhatIsLearnt() {
   if (!network_) return;
   if (const auto saved = network_->SaveSearched(); !saved) {
-    spdlog::warn("some routes will be searched for joints again: {}", saved.error().message);
+    spdlog::warn("some routes will be searched for junctions again: {}", saved.error().message);
   }
   if (const auto kept = network_->KeepFollowed(NowUnixMs()); !kept) {
     spdlog::warn("how well robots follow is not saved: {}", kept.error().message);
@@ -45,7 +45,7 @@ void Server::Propose(const Meeting& meeting) {
       network_->Propose(meeting, takes_sure_joints_ ? kSure : kNever, NowUnixMs());
   NoteMade();
   if (!proposed) {
-    spdlog::warn("proposing a joint: {}", proposed.error().message);
+    spdlog::warn("proposing a junction: {}", proposed.error().message);
   } else if (*proposed && (*proposed)->taken) {
     ++metrics_.joints.taken;
     spdlog::info("{}: taken, as --joints-auto says", (*proposed)->line);

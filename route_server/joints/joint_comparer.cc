@@ -49,10 +49,10 @@ JointComparer::Done JointComparer::Compare(const Job& job) const {
   const double until_ms = ThreadCpuMs() + kMost_ms;
   joints::JointOptions options;
   options.give_up = [&] { return ending_ || ThreadCpuMs() > until_ms; };
-  return {job.number,
-          Guarded("the thread that looks for joints", [&]() -> Result<std::vector<joints::Joint>> {
-            return find_(job.a, job.b, job.same_camera, options);
-          })};
+  return {job.number, Guarded("the thread that looks for junctions",
+                              [&]() -> Result<std::vector<joints::Joint>> {
+                                return find_(job.a, job.b, job.same_camera, options);
+                              })};
 }
 
 }  // namespace trailcast::server

@@ -370,7 +370,7 @@ Result<void> LaneKeeper::Amend(const mission::Record& record, const Rest& rest,
   const std::string orders = NextWay(rest.going, tasks, why, because);
   if (orders.size() > exchange::kMaxLineBytes) {
     return Fail(ErrorCode::kInvalidArgument,
-                "its way has {} stretches, more than one mission holds: send it to a place on the "
+                "its path has {} sections, more than one mission holds: send it to a place on the "
                 "way first",
                 tasks.size());
   }

@@ -217,7 +217,8 @@ Result<Lines> NetworkBoard::Join(Joint joint, const std::string& by, std::int64_
     *place = *std::move(resolved);
   }
   if (IsNear(joint.from, joint.to)) {
-    return Fail(ErrorCode::kInvalidArgument, "a joint leads to another place than where it begins");
+    return Fail(ErrorCode::kInvalidArgument,
+                "a junction leads to another place than where it begins");
   }
   const auto before = std::find_if(joints_.begin(), joints_.end(), [&](const Joint& each) {
     return IsNear(each.from, joint.from) && IsNear(each.to, joint.to);
@@ -255,8 +256,8 @@ Result<Lines> NetworkBoard::Part(const Joint& joint) {
     lines.push_back(network::ToText(*called));
   }
   if (parted.empty()) {
-    return Fail(ErrorCode::kNotFound, "there is no joint of {} and {}", network::ToText(joint.from),
-                network::ToText(joint.to));
+    return Fail(ErrorCode::kNotFound, "there is no junction of {} and {}",
+                network::ToText(joint.from), network::ToText(joint.to));
   }
   for (const Joint& each : parted) {
     if (auto dropped = store_->Drop(each); !dropped) return tl::unexpected(dropped.error());

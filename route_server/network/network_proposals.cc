@@ -158,10 +158,11 @@ Result<std::vector<std::size_t>> NetworkBoard::OpenAt(const Joint& named) const 
     return !Covers(joint, 0.0, proposed_[each].proposal.joint, kNamed_m);
   });
   if (!open.empty()) return open;
-  return Fail(ErrorCode::kNotFound,
-              "no joint of {} and {} is proposed: 'trailcast network proposals' lists those that "
-              "are",
-              network::ToText(named.from), network::ToText(named.to));
+  return Fail(
+      ErrorCode::kNotFound,
+      "no junction of {} and {} is proposed: 'trailcast network proposals' lists those that "
+      "are",
+      network::ToText(named.from), network::ToText(named.to));
 }
 
 Result<std::vector<std::string>> NetworkBoard::Settle(const Edit& edit, const std::string& by,

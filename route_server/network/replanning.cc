@@ -234,7 +234,7 @@ Result<std::string> Replanning::Replan(const mission::Record& record, const Rest
   std::string orders = NextWay(rest.going, tasks, mission::Going::Why::kReplanned, because);
   if (orders.size() > exchange::kMaxLineBytes) {
     because +=
-        fmt::format("; the other way has {} stretches, more than one mission holds", tasks.size());
+        fmt::format("; the other path has {} sections, more than one mission holds", tasks.size());
     tasks = {{.kind = Task::Kind::kWaitWay}};
     orders = NextWay(rest.going, tasks, mission::Going::Why::kReplanned, because);
   }

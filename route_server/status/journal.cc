@@ -138,8 +138,8 @@ std::optional<std::string> Journal::On(const exchange::Receipt& receipt) {
   const std::uint32_t worth_telling = complete ? known.told_durable + 1 : 2 * known.told_durable;
   if (durable == 0 || durable < worth_telling) return std::nullopt;
   known.told_durable = durable;
-  return fmt::format("route {}: {} segments stored and receipted{}", NameOf(receipt.key), durable,
-                     complete ? ", complete" : "");
+  return fmt::format("route {}: {} segments stored and acknowledged{}", NameOf(receipt.key),
+                     durable, complete ? ", complete" : "");
 }
 
 }  // namespace trailcast::server

@@ -87,7 +87,7 @@ std::string Metrics::Text() const {
             "Routes for which it was looked where others meet them.", joints.routes_searched);
   lines.Add("joints_proposed_total", kCounter, "Joints found and proposed.", joints.proposed);
   lines.Add("joints_taken_total", kCounter, "Joints found and made without asking.", joints.taken);
-  lines.Add("joints_open", kGauge, "Proposed joints that nobody has confirmed or refused.",
+  lines.Add("joints_open", kGauge, "Proposed junctions that nobody has confirmed or refused.",
             joints.open);
   lines.Add("crossings_total", kCounter, "Known routes that scouts were told they cross.",
             joints.crossings);

@@ -54,7 +54,7 @@ void AddRevision(CLI::App& command, std::uint32_t& revision, const char* help) {
 void AddDeliveryTimeout(CLI::App& command, TeachCommand& teach) {
   command
       .add_option("--delivery-timeout", teach.delivery_timeout_s,
-                  "Seconds to wait at the end for a server's receipts")
+                  "Seconds to wait at the end for a server's acknowledgements")
       ->check(CLI::Range(0.0, kLongest_s));
 }
 

@@ -31,7 +31,7 @@ constexpr std::chrono::seconds kAnsweredWithin{3};
 constexpr double kAtOnce_m = 0.01;
 // A robot that does not know its camera turns so far to either side to measure its magnification.
 constexpr double kForLens_rad = 0.2;
-constexpr const char* kWaitsForWord = "waits before a narrow stretch until a server lets it in";
+constexpr const char* kWaitsForWord = "waits before a narrow place until a server lets it in";
 
 }  // namespace
 

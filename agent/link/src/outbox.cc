@@ -66,7 +66,7 @@ Result<std::string> Outbox::TakeUp(route::RouteInfo info, Receipts receipts) {
   Emplace(info, std::move(digests),
           noted ? Without(indices, *unreceipted) : std::vector<SegmentIndex>(), std::nullopt);
   return fmt::format(
-      "{} from an earlier run: {} of {} segments have no receipt{}{}", route::Describe(info),
+      "{} from an earlier run: {} of {} segments are not acknowledged{}{}", route::Describe(info),
       unreceipted->size(), info.segment_count,
       cut_off ? "; its teaching was cut off, it ends there, and no robot follows it unless an "
                 "operator activates it"
@@ -209,7 +209,7 @@ std::optional<std::string> Outbox::refusal() const {
     if (const auto& server = sending.sender.contradicted_by()) {
       return fmt::format(
           "server '{}' holds other segments under the identity of {} (was this robot's store "
-          "copied, or put back from a backup?): nothing of it counts as receipted there",
+          "copied, or put back from a backup?): nothing of it counts as acknowledged there",
           server->value(), which);
     }
   }

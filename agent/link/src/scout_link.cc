@@ -230,7 +230,7 @@ Result<void> ScoutLink::Trade() {
 Result<void> ScoutLink::Deliver() {
   const auto began = steady_clock::now();
   if (!outbox_.Done()) {
-    spdlog::info("waiting for a server's receipts of {} segments (at most {:.0f} s)",
+    spdlog::info("waiting for a server's acknowledgement of {} segments (at most {:.0f} s)",
                  outbox_.unreceipted(), Seconds(options_.delivery_timeout));
   }
   while (!outbox_.Done() || !HasAsked()) {
@@ -240,7 +240,7 @@ Result<void> ScoutLink::Deliver() {
                                        : options_.delivery_timeout;
     if (steady_clock::now() - began > bound) return {};
     ShowStatus(exchange::AgentMode::kWaiting,
-               fmt::format("{} for receipts of {} segments",
+               fmt::format("{} for the acknowledgement of {} segments",
                            presence_->server() ? "waiting" : "no server heard: waiting",
                            outbox_.unreceipted()));
     if (auto traded = Trade(); !traded) return traded;

@@ -57,7 +57,7 @@ Result<void> InsertJoint(OwnDatabase& database, const network::Joint& joint, con
                          std::int64_t now_unix_ms) {
   RemoveJoint(database, joint);
   if (database.Count("SELECT count(*) FROM joint") >= NetworkStore::kMostJoints) {
-    return Fail(ErrorCode::kUnavailable, "{} joints are kept already: no more",
+    return Fail(ErrorCode::kUnavailable, "{} junctions are kept already: no more",
                 NetworkStore::kMostJoints);
   }
   RunWith(database,
@@ -88,7 +88,7 @@ Result<void> InsertProposed(OwnDatabase& database, const ProposedJoint& proposed
 }  // namespace
 
 Result<std::vector<network::Joint>> NetworkStore::Joints() {
-  return database_->Read("reading joints",
+  return database_->Read("reading junctions",
                          "SELECT from_route, from_m, to_route, to_m, both, ahead_m, left_m, "
                          "turn_rad FROM joint ORDER BY number",
                          JointIn);
@@ -96,13 +96,13 @@ Result<std::vector<network::Joint>> NetworkStore::Joints() {
 
 Result<void> NetworkStore::Put(const network::Joint& joint, const std::string& by,
                                std::int64_t now_unix_ms) {
-  return database_->AllOrNothing("storing a joint", [&]() -> Result<void> {
+  return database_->AllOrNothing("storing a junction", [&]() -> Result<void> {
     return InsertJoint(*database_, joint, by, now_unix_ms);
   });
 }
 
 Result<void> NetworkStore::Drop(const network::Joint& joint) {
-  return database_->Guarded("forgetting a joint", [&]() -> Result<void> {
+  return database_->Guarded("forgetting a junction", [&]() -> Result<void> {
     RemoveJoint(*database_, joint);
     return {};
   });
@@ -124,7 +124,7 @@ Result<void> NetworkStore::Put(std::span<const ProposedJoint> proposed, const st
       if (auto put = InsertProposed(*database_, each, by, now_unix_ms); !put) return put;
     }
     if (database_->Count("SELECT count(*) FROM proposed_joint") > kMostProposals) {
-      return Fail(ErrorCode::kUnavailable, "{} proposed joints are kept already: no more",
+      return Fail(ErrorCode::kUnavailable, "{} proposed junctions are kept already: no more",
                   kMostProposals);
     }
     return {};

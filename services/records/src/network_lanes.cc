@@ -37,7 +37,7 @@ Result<std::int64_t> NetworkStore::Put(const network::Lane& lane, const std::str
           number, part.route, part.from_m, part.to_m, by, now_unix_ms);
     }
     if (database_->Count("SELECT count(*) FROM lane_part") > kMostLaneParts) {
-      return Fail(ErrorCode::kUnavailable, "{} narrow stretches are kept already: no more",
+      return Fail(ErrorCode::kUnavailable, "{} narrow places are kept already: no more",
                   kMostLaneParts);
     }
     return number;

@@ -145,7 +145,7 @@ TEST_F(NetworkChanges, ARobotThatGetsAnotherAddressDeliversTheRest) {
   StartServerOnItsNetwork();
   lab_->GiveAddress(kRobot, kRobot);
   const auto scout = Scout();
-  ASSERT_TRUE(server_->WaitForOutput("segments stored and receipted")) << scout->output();
+  ASSERT_TRUE(server_->WaitForOutput("segments stored and acknowledged")) << scout->output();
   lab_->TakeAddress(kRobot, kRobot);
   lab_->GiveAddress(kRobot, kRobot + kElsewhere);
   ASSERT_TRUE(scout->WaitForOutput("instead of eth0 (10.77.0.2)")) << scout->output();
@@ -156,7 +156,7 @@ TEST_F(NetworkChanges, AServerThatGetsAnotherAddressIsFoundAgain) {
   StartServerOnItsNetwork();
   lab_->GiveAddress(kRobot, kRobot);
   const auto scout = Scout();
-  ASSERT_TRUE(server_->WaitForOutput("segments stored and receipted")) << scout->output();
+  ASSERT_TRUE(server_->WaitForOutput("segments stored and acknowledged")) << scout->output();
   lab_->TakeAddress(kServer, kServer);
   lab_->GiveAddress(kServer, kServer + kElsewhere);
   ASSERT_TRUE(server_->WaitForOutput("instead of eth0 (10.77.0.1)")) << server_->output();
@@ -193,7 +193,7 @@ TEST_F(NetworkChanges, AnInterfaceThatIsMadeAnewIsJoinedAnew) {
   StartServerOnItsNetwork();
   lab_->GiveAddress(kRobot, kRobot);
   const auto scout = Scout();
-  ASSERT_TRUE(server_->WaitForOutput("segments stored and receipted")) << scout->output();
+  ASSERT_TRUE(server_->WaitForOutput("segments stored and acknowledged")) << scout->output();
   lab_->DeleteInterface(kRobot);
   ASSERT_TRUE(scout->WaitForOutput("off the network, eth0 (10.77.0.2) is gone")) << scout->output();
   lab_->MakeInterface(kRobot);

@@ -102,7 +102,7 @@ class NetworkTest : public ProgramsTest {
   void OutageWhileTeaching(seconds outage) {
     StartServer();
     const auto scout = RobotAt(TeachSimulated({"--delivery-timeout", "60"}));
-    ASSERT_TRUE(server_->WaitForOutput("segments stored and receipted")) << scout->output();
+    ASSERT_TRUE(server_->WaitForOutput("segments stored and acknowledged")) << scout->output();
     lab_->Cut(kRobot);
     std::this_thread::sleep_for(outage);
     lab_->Join(kRobot);
@@ -138,7 +138,7 @@ TEST_F(StoreAndForward, DeliversWhatWasTaughtOutOfRangeFromStartToEnd) {
   lab_->Cut(kRobot);
   const auto scout = RobotAt(With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"),
                                   {"--server", "--delivery-timeout", "60", "--discovery", "star"}));
-  ASSERT_TRUE(scout->WaitForOutput("waiting for a server's receipts")) << scout->output();
+  ASSERT_TRUE(scout->WaitForOutput("waiting for a server's acknowledgement")) << scout->output();
   ASSERT_TRUE(scout->WaitForOutput("no server heard yet")) << scout->output();
   lab_->Join(kRobot);
   const auto ended = End(*scout);
@@ -149,7 +149,7 @@ TEST_F(StoreAndForward, DeliversWhatWasTaughtOutOfRangeFromStartToEnd) {
 TEST_F(StoreAndForward, AScoutKilledOutOfRangeDeliversWhatItHadTaught) {
   StartServer();
   auto scout = RobotAt(TeachSimulated({}));
-  ASSERT_TRUE(server_->WaitForOutput("segments stored and receipted")) << scout->output();
+  ASSERT_TRUE(server_->WaitForOutput("segments stored and acknowledged")) << scout->output();
   lab_->Cut(kRobot);
   ASSERT_TRUE(scout->WaitForOutput("segment 4 of 'hall'")) << scout->output();
   scout->Signal(SIGKILL);

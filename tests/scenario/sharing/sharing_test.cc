@@ -42,7 +42,7 @@ TEST_F(SharingTest, AFollowerMayBeThereBeforeServerAndScout) {
 TEST_F(SharingTest, AScoutDeliversToAServerThatComesLate) {
   const auto scout =
       Agent(With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"), {"--server"}), "scout");
-  ASSERT_TRUE(scout->WaitForOutput("waiting for a server's receipts")) << scout->output();
+  ASSERT_TRUE(scout->WaitForOutput("waiting for a server's acknowledgement")) << scout->output();
   const auto server = Server();
   EXPECT_EQ(End(*scout).status, 0) << scout->output();
 }

@@ -122,7 +122,7 @@ TEST_F(OutboxTest, TakesUpWhatAnEarlierRunCouldNotDeliver) {
   Restart();
   const auto notes = outbox_->LoadBacklog();
   ASSERT_TRUE(notes) << notes.error().message;
-  EXPECT_THAT(*notes, ElementsAre(HasSubstr("2 of 3 segments have no receipt")));
+  EXPECT_THAT(*notes, ElementsAre(HasSubstr("2 of 3 segments are not acknowledged")));
   EXPECT_EQ(outbox_->unreceipted(), 2U);
 }
 

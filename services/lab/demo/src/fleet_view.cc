@@ -38,7 +38,7 @@ const char* ModeWord(const AgentStatus& status) {
 std::string Doing(const AgentStatus& status) {
   switch (status.mode) {
     case AgentMode::kTeaching:
-      return fmt::format("segment {:>2}, {:>2} features, {:.2f} m/s, {} without receipt",
+      return fmt::format("segment {:>2}, {:>2} features, {:.2f} m/s, {} unacknowledged",
                          status.segment, status.features, status.speed_mps, status.backlog);
     case AgentMode::kReplaying:
       return fmt::format("segment {:>2} of {:>2}, {:>2} features, {:.2f} m/s, {:.0f} % found",

@@ -103,7 +103,7 @@ TEST_F(NetworkBoardTest, JoinedRoutesMakeAWayThatIsAMissionsOrders) {
   EXPECT_THAT(Asked("way hall@2 hall@2"), IsEmpty()) << "it is there";
   EXPECT_THAT(Asked("way ring@2 ring@3"), ElementsAre("follow ring 2..3")) << "joined to none";
   EXPECT_THAT(Done("part office@0 hall@12"), ElementsAre("join hall@12 office@0"));
-  EXPECT_THAT(Refused("part office@0 hall@12"), HasSubstr("no joint of office@0 and hall@12"));
+  EXPECT_THAT(Refused("part office@0 hall@12"), HasSubstr("no junction of office@0 and hall@12"));
   EXPECT_THAT(Asked(), IsEmpty());
 }
 
@@ -117,7 +117,7 @@ TEST_F(NetworkBoardTest, WhatIsProposedIsNoWayUntilItIsConfirmed) {
                                    "0.93"));
   EXPECT_THAT(Ask("way hall@2 office@8").error, HasSubstr("no way leads"));
   EXPECT_THAT(Refused("confirm hall@12 office@2"),
-              HasSubstr("no joint of hall@12 and office@2 is"));
+              HasSubstr("no junction of hall@12 and office@2 is"));
   EXPECT_THAT(Done("confirm office@0 hall@12"),
               ElementsAre("join hall@12 office@0.4 both heading 2.9"));
   EXPECT_THAT(Asked("way hall@2 office@8"), SizeIs(2));

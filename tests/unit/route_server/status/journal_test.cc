@@ -61,10 +61,12 @@ TEST(JournalTest, TellsOfReceiptsWhenTheyHaveDoubledAndAtTheEnd) {
   EXPECT_THAT(journal.Sent(ReceiptOf(2)), Optional(HasSubstr("'hall' revision 1: 2 segments")));
   EXPECT_EQ(journal.Sent(ReceiptOf(2)), std::nullopt);
   EXPECT_EQ(journal.Sent(ReceiptOf(3)), std::nullopt);
-  EXPECT_THAT(journal.Sent(ReceiptOf(4)), Optional(HasSubstr("4 segments stored and receipted")));
+  EXPECT_THAT(journal.Sent(ReceiptOf(4)),
+              Optional(HasSubstr("4 segments stored and acknowledged")));
   Receipt last = ReceiptOf(5);
   last.durable_state = route::RouteState::kComplete;
-  EXPECT_THAT(journal.Sent(last), Optional(HasSubstr("5 segments stored and receipted, complete")));
+  EXPECT_THAT(journal.Sent(last),
+              Optional(HasSubstr("5 segments stored and acknowledged, complete")));
   EXPECT_EQ(journal.Sent(last), std::nullopt);
 }
 
