@@ -84,7 +84,7 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
       ->envname("TRAILCAST_HISTORY");
   app.add_flag(
          "--joints-auto", options.joints_auto,
-         "Make joints of the places where the server is sure, at 0.9 or more, that routes meet; "
+         "Make junctions of the places where the server is sure, at 0.9 or more, that routes meet; "
          "without, they are proposed, and 'trailcast network confirm' makes them")
       ->envname("TRAILCAST_JOINTS_AUTO");
   app.add_option("--keep-revisions", options.keep_revisions,

@@ -85,8 +85,9 @@ std::string Metrics::Text() const {
             dropped_strays);
   lines.Add("routes_searched_total", kCounter,
             "Routes for which it was looked where others meet them.", joints.routes_searched);
-  lines.Add("joints_proposed_total", kCounter, "Joints found and proposed.", joints.proposed);
-  lines.Add("joints_taken_total", kCounter, "Joints found and made without asking.", joints.taken);
+  lines.Add("joints_proposed_total", kCounter, "Junctions found and proposed.", joints.proposed);
+  lines.Add("joints_taken_total", kCounter, "Junctions found and made without asking.",
+            joints.taken);
   lines.Add("joints_open", kGauge, "Proposed junctions that nobody has confirmed or refused.",
             joints.open);
   lines.Add("crossings_total", kCounter, "Known routes that scouts were told they cross.",

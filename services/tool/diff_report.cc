@@ -176,7 +176,7 @@ std::string DiffText(const RouteDiff& diff) {
                     found.refreshed ? "0" : AsideText(part.aside_m));
   }
   if (differing.empty() && !found.parts.empty()) {
-    text = "no stretch differs more than the others\n";
+    text = "no section differs more than the others\n";
   }
   return text + HowText(diff) + ": " + CountText(diff) + "\n";
 }

@@ -78,7 +78,7 @@ std::string JointsText(const std::vector<JoinableRoute>& routes,
   }
   if (!text.empty()) return text;
   if (routes.size() == 1) return "it does not come back to where it was\n";
-  return fmt::format("no joints of {} routes\n", routes.size());
+  return fmt::format("no junctions of {} routes\n", routes.size());
 }
 
 Json JointsJson(const std::vector<JoinableRoute>& routes, const std::vector<FoundJoint>& found) {

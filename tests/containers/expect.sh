@@ -26,7 +26,7 @@ expect_taught() {
   local scout=${1:-scout}
   await_end 240 "$scout"
   [[ $(status_of "$scout") == 0 && $(value_of "$scout" unreceipted) == 0 ]] ||
-    fail "$scout ended with status $(status_of "$scout"), $(value_of "$scout" unreceipted) segments not receipted"
+    fail "$scout ended with status $(status_of "$scout"), $(value_of "$scout" unreceipted) segments not acknowledged"
   taught_segments=$(value_of "$scout" segments)
 }
 

@@ -139,7 +139,7 @@ Result<void> Judge(const Result<void>& driven, const ScoutLink::Outcome& outcome
 
 Error NotReceipted(const ScoutLink::Outcome& outcome, const std::string& store_file) {
   return {ErrorCode::kUnavailable,
-          fmt::format("{} segments not receipted, kept in {}: send them with 'trailcast-agent "
+          fmt::format("{} segments not acknowledged, kept in {}: send them with 'trailcast-agent "
                       "deliver --store {}' when {}; until then robots follow what they followed "
                       "before{}{}",
                       outcome.unreceipted, store_file, store_file,

@@ -76,7 +76,7 @@ Result<Network> Network::Build(std::vector<Route> routes, const std::vector<Join
   for (const Joint& joint : joints) {
     for (const Place* place : {&joint.from, &joint.to}) {
       if (const auto found = network.Find(*place); !found) {
-        return Fail(ErrorCode::kInvalidArgument, "a joint: {}", found.error().message);
+        return Fail(ErrorCode::kInvalidArgument, "a junction: {}", found.error().message);
       }
     }
   }
@@ -323,9 +323,10 @@ Result<Way> Network::WayFound(const Spot& from, const Spot& to, const Found& fou
     return Fail(ErrorCode::kNotFound, "every way {} is closed; on the least closed: {}", ends,
                 ClosedOn(found.drives));
   }
-  return Fail(ErrorCode::kNotFound,
-              "no way leads {}: routes are followed as they were taught, and no joints lead there",
-              ends);
+  return Fail(
+      ErrorCode::kNotFound,
+      "no way leads {}: routes are followed as they were taught, and no junctions lead there",
+      ends);
 }
 
 Result<Way> Network::ShortestWay(const Place& from, const Place& to) const {

@@ -24,8 +24,8 @@ struct NetworkOptions {
 };
 
 constexpr const char* kNetworkExamples =
-    "Words; without any, it lists the routes that are joined, joints, what is closed, names, and\n"
-    "proposed joints:\n"
+    "Words; without any, it lists the routes that are joined, junctions, what is closed, names,\n"
+    "and proposed junctions:\n"
     "  join PLACE PLACE [both] [offset AHEAD,LEFT] [heading DEGREES]\n"
     "                       robots may change over from the first place to the second; both: and\n"
     "                       back; how the second lies there, where it is known. From 60 degrees "
@@ -39,27 +39,27 @@ constexpr const char* kNetworkExamples =
     "                       bent, out of a dead end: it is narrow there from now on; ahead ROUTE\n"
     "                       [FROM..TO]: no more\n"
     "  limit ROUTE [FROM..TO] [speed F] [cost F]\n"
-    "                       at most F times the taught speed; a metre counts as F when ways are\n"
+    "                       at most F times the taught speed; a metre counts as F when paths are\n"
     "                       compared; with neither, no limit any more\n"
     "  narrow ROUTE FROM..TO [ROUTE FROM..TO ...]\n"
     "                       robots cannot pass each other there: those that go to a place are let\n"
-    "                       in one at a time, and wait before it. The stretches are one place; a\n"
+    "                       in one at a time, and wait before it. The sections are one place; a\n"
     "                       lane that is driven both ways was taught as two routes: name both\n"
     "  wide ROUTE [FROM..TO]    they can, on the whole of each such place\n"
     "  vacate ROUTE [FROM..TO]  whoever has one is not in it any more: you have looked\n"
     "  name NAME PLACE      'goto NAME' leads there; forget NAME\n"
-    "  proposals            the joints alone that the server proposes: places where scouts saw, "
-    "it\n"
-    "                       finds, that two routes meet, looking the same way, and how sure it is\n"
-    "  confirm PLACE PLACE  the joint proposed there is made; confirm all [above F]\n"
+    "  proposals            only the junctions that the server proposes: places where two routes\n"
+    "                       meet, looking the same way, by what scouts saw, and how sure it is\n"
+    "  confirm PLACE PLACE  the junction proposed there is made; confirm all [above F]\n"
     "  refuse PLACE PLACE   it is not, nor proposed again for these revisions; refuse all [below "
     "F]\n"
-    "  way FROM TO          the way that costs least, between PLACEs or named ones; FROM may be a\n"
+    "  way FROM TO          the path that costs least, between PLACEs or named ones; FROM may be "
+    "a\n"
     "                       robot, as it stands. Where robots lost their path lately a metre\n"
     "                       counts as more, and 'trailcast network' lists that\n"
-    "  passing PLACE        the routes that pass there, by joints and proposed ones: where on each "
-    "that\n"
-    "                       is; PLACE, or what one is called\n"
+    "  passing PLACE        the routes that pass there, by junctions and proposed ones, and where "
+    "on\n"
+    "                       each that is; PLACE, or what one is called\n"
     "A PLACE is ROUTE@METRES along it: hall@12.5; FROM..TO are metres, either may be missing.\n"
     "Examples:\n"
     "  trailcast network join hall@12 office@0\n"
@@ -71,12 +71,13 @@ constexpr const char* kNetworkExamples =
     "  trailcast network close hall 3..7\n"
     "  trailcast network narrow hall 3..7 back 10..14\n"
     "  trailcast network name loading-bay office@8\n"
-    "  trailcast network way hall@2 loading-bay    # its stretches, and how long it is\n"
+    "  trailcast network way hall@2 loading-bay    # its sections, and how long it is\n"
     "  trailcast network way robot1 office@8 --json\n"
     "  trailcast network passing hall@12.3         # office@0.3  join hall@12 office@0\n"
     "  trailcast network --plot network.png\n"
     "A route is followed in the direction in which it was taught, and backwards where robots may.\n"
-    "A joint or a name is of the revisions that robots follow when it is made; while another is\n"
+    "A junction or a name is of the revisions that robots follow when it is made; while another "
+    "is\n"
     "followed, it is not used.\n"
     "Exit status: 0 done; 1 no way, or not done, and why; 2 wrong usage.";
 
@@ -167,7 +168,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const Network
     if (AsksForProposals(options)) {
       std::erase_if(*lines,
                     [](const std::string& line) { return !network::ParseListed(line).proposal; });
-      if (lines->empty() && !options.json) return Print("no joints are proposed\n");
+      if (lines->empty() && !options.json) return Print("no junctions are proposed\n");
     }
     if (!options.plot.empty()) {
       const auto written = PictureOf(*lines).and_then([&](const plot::NetworkPicture& picture) {
@@ -207,7 +208,7 @@ Command AddNetworkCommand(CLI::App& parent, const program::CommonOptions& common
   app->add_flag("--json", options->json, "For programs");
   app->add_option("--plot", options->plot,
                   "Where a picture of it goes (PNG, or SVG by its name): routes as straight lines, "
-                  "metres to scale, joints, what is closed, narrow or limited, names");
+                  "metres to scale, junctions, what is closed, narrow or limited, names");
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));

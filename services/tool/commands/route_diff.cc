@@ -37,7 +37,7 @@ constexpr const char* kRouteDiffExamples =
     "has, how many went and came, and how far the path was moved. Of a route that robots "
     "refreshed\n"
     "each feature is compared with itself; any others by what was seen on the way, where the same\n"
-    "feature is found again less surely: only a stretch that has clearly less than the route as a\n"
+    "feature is found again less surely: only a section that has clearly less than the route as a\n"
     "whole is told. Exit status: 0 compared; 1 not, and why, or they go other ways; 2 wrong usage.";
 
 struct Fetched {

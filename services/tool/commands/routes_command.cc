@@ -47,7 +47,7 @@ constexpr const char* kRoutesExamples =
     "  trailcast routes --name aisle-3 --long     # where it is weak, rough, steep\n"
     "  trailcast routes --prefix barn- --tag night --sort longest\n"
     "  trailcast routes --near-gps 48.137,11.575 --within 200 --newer-than 7d\n"
-    "  trailcast routes --since monday            # what was changed: routes, joints, closed "
+    "  trailcast routes --since monday            # what was changed: routes, junctions, closed "
     "parts\n"
     "  trailcast routes --network-interface lo --timeout 2\n"
     "  trailcast routes activate aisle-3          # followers take the newest revision now\n"

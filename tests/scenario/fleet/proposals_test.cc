@@ -90,7 +90,7 @@ TEST_F(ProposalsTest, AJointThatIsFoundIsAnOperatorsToMakeOrToRefuse) {
   EXPECT_THAT(refused.output, HasSubstr("no more: proposed join "));
   Stop(*server);
   server = Server("other.db");
-  EXPECT_THAT(Network({"proposals"}).output, HasSubstr("no joints are proposed"));
+  EXPECT_THAT(Network({"proposals"}).output, HasSubstr("no junctions are proposed"));
   EXPECT_EQ(Network({"way", "hall@1", "office@8"}).status, 1);
 }
 

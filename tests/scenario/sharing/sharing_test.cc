@@ -51,7 +51,7 @@ TEST_F(SharingTest, AScoutWithoutAServerKeepsTheRouteAndDeliversItAnotherTime) {
   const auto alone = RunAgent(With(TeachWords(Walk("taught", kTaughtFrames), "scout.db"),
                                    {"--server", "--delivery-timeout", "0.5"}));
   EXPECT_EQ(alone.status, 1);
-  EXPECT_THAT(alone.output, HasSubstr("segments not receipted, kept in " + Path("scout.db")));
+  EXPECT_THAT(alone.output, HasSubstr("segments not acknowledged, kept in " + Path("scout.db")));
   const auto server = Server();
   const auto again = RunAgent({"deliver", "--store", Path("scout.db")});
   EXPECT_EQ(again.status, 0) << again.output;

@@ -55,7 +55,7 @@ TEST_F(NetworkTest, AWayLeadsOverJointsInTheDirectionThatWasTaught) {
   EXPECT_THAT(Found({"h", 2.0}, {"h", 2.0}).stretches, IsEmpty());
   EXPECT_THAT(Found({"h", 12.0}, {"o", 0.0}).stretches, IsEmpty()) << "it stands at the joint";
   EXPECT_THAT(Why({"o", 1.0}, {"h", 2.0}),
-              AllOf(HasSubstr("no way leads from office@1 to hall@2"), HasSubstr("joints")));
+              AllOf(HasSubstr("no way leads from office@1 to hall@2"), HasSubstr("junctions")));
   EXPECT_THAT(Why({"h", 5.0}, {"h", 2.0}), HasSubstr("no way leads from hall@5 to hall@2"));
 }
 
@@ -204,7 +204,7 @@ TEST_F(NetworkTest, WhatIsNotThereIsNamed) {
   joints_.push_back({{"h", 30.0}, {"o", 0.0}});
   const auto beyond = Network::Build(routes_, joints_, {});
   ASSERT_FALSE(beyond);
-  EXPECT_THAT(beyond.error().message, HasSubstr("a joint: route 'hall' is 20.0 m long"));
+  EXPECT_THAT(beyond.error().message, HasSubstr("a junction: route 'hall' is 20.0 m long"));
   EXPECT_FALSE(Network::Build({{"h", "hall", 1.0}, {"h", "hall", 1.0}}, {}, {}));
   conditions_ = {{.route = "x", .to_m = 1.0, .closed = true}};
   joints_.pop_back();

@@ -268,7 +268,7 @@ TEST_F(ConfidenceTest, ASegmentTaughtWithoutFeaturesIsDrivenByOdometry) {
   NextSegment(2);
   const Verdict verdict = See(0, 500);
   EXPECT_EQ(verdict.trust, Trust::kBlind);
-  EXPECT_EQ(verdict.reason, "this stretch was taught without features: on by odometry");
+  EXPECT_EQ(verdict.reason, "this section was taught without features: on by odometry");
 }
 
 TEST_F(ConfidenceTest, WithoutOdometryAStretchTaughtWithoutFeaturesLeavesItBlind) {

@@ -52,7 +52,7 @@ TEST(DiffReport, SaysThatNothingDiffersOrThatTheyGoOtherWays) {
   RouteDiff diff{Revision("hall", 'a', 1), Revision("hall", 'a', 2), Found()};
   diff.found.refreshed = true;
   diff.found.parts.resize(4);
-  EXPECT_THAT(DiffText(diff), AllOf(HasSubstr("no stretch differs more than the others\n"),
+  EXPECT_THAT(DiffText(diff), AllOf(HasSubstr("no section differs more than the others\n"),
                                     HasSubstr("hall@2 has the path of hall@1: 75 % of 160")));
   diff.found.parts.clear();
   diff.found.refreshed = false;

@@ -53,7 +53,7 @@ TEST(JointsReport, MeasuresInSecondsWithoutOdometry) {
 TEST(JointsReport, SaysThatThereAreNone) {
   const std::vector<JoinableRoute> routes{Route("hall", 'a'), Route("office", 'b')};
   EXPECT_TRUE(FindAllJoints(routes, false).empty());
-  EXPECT_EQ(JointsText(routes, {}), "no joints of 2 routes\n");
+  EXPECT_EQ(JointsText(routes, {}), "no junctions of 2 routes\n");
   EXPECT_EQ(JointsJson(routes, {}).dump(), R"({"routes":2,"joints":[]})");
 }
 

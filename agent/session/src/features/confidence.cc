@@ -122,7 +122,7 @@ Verdict Confidence::Judge(const Sighting& seen,
                                       carries_)};
   }
   if (seen.taught < options_.min_features && sure_once_ && moved) {  // nothing was to be seen here
-    return {Trust::kBlind, "this stretch was taught without features: on by odometry"};
+    return {Trust::kBlind, "this section was taught without features: on by odometry"};
   }
   NoteView(seen);
   if (since_covered_s_) *since_covered_s_ += seen.dt_s;

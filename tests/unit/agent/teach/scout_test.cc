@@ -164,7 +164,7 @@ TEST_F(ScoutTest, KeepsWhatNoServerConfirmedAndDeliversItLater) {
   const auto alone = swarm_.Teach(device_, options, true);
   ASSERT_FALSE(alone);
   EXPECT_THAT(alone.error().message,
-              AllOf(HasSubstr("segments not receipted, kept in " + options.link.store_file),
+              AllOf(HasSubstr("segments not acknowledged, kept in " + options.link.store_file),
                     HasSubstr("deliver")));
   swarm_.StartServer();
   options.link.delivery_timeout = std::chrono::seconds(20);
