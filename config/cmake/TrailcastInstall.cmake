@@ -24,7 +24,8 @@ install(FILES config/agent/agent.toml config/agent/camera.toml config/agent/car.
         COMPONENT agent)
 
 # Man pages, made of what each program explains of itself, by the target `manpages`; and completion
-# for bash, which asks the programs.
+# for bash, fish and zsh, which asks the programs. Each shell looks for a file of the program's name;
+# Debian's zsh looks in vendor-completions below /usr, and in site-functions below /usr/local.
 find_program(Gzip gzip REQUIRED)
 set(pages)
 foreach(program trailcast trailcast-agent trailcast-console trailcast-server)
@@ -43,6 +44,12 @@ foreach(program trailcast trailcast-agent trailcast-console trailcast-server)
   install(FILES "${page}.gz" DESTINATION share/man/man1 COMPONENT ${component} OPTIONAL)
   install(FILES config/completion/trailcast.bash DESTINATION share/bash-completion/completions
           RENAME ${program} COMPONENT ${component})
+  install(FILES config/completion/trailcast.fish DESTINATION share/fish/vendor_completions.d
+          RENAME ${program}.fish COMPONENT ${component})
+  foreach(folder vendor-completions site-functions)
+    install(FILES config/completion/trailcast.zsh DESTINATION share/zsh/${folder}
+            RENAME _${program} COMPONENT ${component})
+  endforeach()
 endforeach()
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/man")
 add_custom_target(manpages DEPENDS ${pages})

@@ -9,7 +9,9 @@ trap 'rm -rf "$work"' EXIT
 
 cmake --install "$build" --prefix "$work/installed" >"$work/install.log"
 for file in bin/trailcast{,-agent,-console,-server} lib/systemd/system/trailcast-{agent,console,server}.service \
-  share/bash-completion/completions/trailcast{,-agent,-console,-server}; do
+  share/bash-completion/completions/trailcast{,-agent,-console,-server} \
+  share/fish/vendor_completions.d/trailcast{,-agent,-console,-server}.fish \
+  share/zsh/{vendor-completions,site-functions}/_trailcast{,-agent,-console,-server}; do
   [[ -e $work/installed/$file ]] || { echo "not installed: $file" >&2; exit 1; }
 done
 if find "$work/installed/include" -path '*/src/*' | grep .; then

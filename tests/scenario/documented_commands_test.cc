@@ -103,6 +103,15 @@ class DocumentedCommands : public ProgramsTest {
     return ended.status == 0 ? ended.output : "";
   }
 
+  // The output of a script that has loaded a shell's completion.
+  std::string Complete(std::vector<std::string> shell, const std::string& suffix,
+                       const std::string& script, const std::string& before = "") {
+    shell.push_back(before + "source " + SourceDir() + "/config/completion/trailcast." + suffix +
+                    "; export PATH=" + ProgramsDir() + ":\"$PATH\"; " + script);
+    Process process(shell, Path("completed"));
+    return End(process).output;
+  }
+
   static bool HasCommand(const std::string& commands, const std::string& name) {
     return commands.find("\n  " + name + " ") != std::string::npos;
   }
@@ -175,17 +184,38 @@ TEST_F(DocumentedCommands, ManPagesHaveEveryCommandAndItsFlags) {
 
 TEST_F(DocumentedCommands, BashCompletesCommandsFlagsAndValues) {
   const auto completed = [&](const std::string& words) {
-    const std::string script = "source " + SourceDir() + "/config/completion/trailcast.bash; " +
-                               "PATH=" + ProgramsDir() + ":$PATH; COMP_WORDS=(" + words +
-                               "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _trailcast; " +
-                               "echo ${COMPREPLY[*]}";
-    Process bash({"/bin/bash", "-c", script}, Path("completed"));
-    return End(bash).output;
+    return Complete({"/bin/bash", "-c"}, "bash",
+                    "COMP_WORDS=(" + words + "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); " +
+                        "_trailcast; echo ${COMPREPLY[*]}");
   };
   EXPECT_EQ(completed("trailcast rou"), "routes\n");
   EXPECT_EQ(completed("trailcast routes --near"), "--near-site --near-gps\n");
   EXPECT_EQ(completed("trailcast-agent replay --start ''"), "left beginning anywhere\n");
   EXPECT_THAT(completed("trailcast --domain 7 keys ''"), HasSubstr("revoke"));
+}
+
+TEST_F(DocumentedCommands, FishCompletesCommandsFlagsAndValues) {
+  const auto completed = [&](const std::string& line) {
+    return Complete({"/usr/bin/fish", "--no-config", "-c"}, "fish", "complete -C '" + line + "'");
+  };
+  EXPECT_EQ(completed("trailcast rou"), "routes\tList the routes that a route server keeps\n");
+  EXPECT_EQ(completed("trailcast routes --near"), "--near-gps\n--near-site\n");
+  EXPECT_EQ(completed("trailcast-agent replay --start "), "anywhere\nbeginning\nleft\n");
+  EXPECT_THAT(completed("trailcast --domain 7 keys "), HasSubstr("revoke\t"));
+}
+
+TEST_F(DocumentedCommands, ZshCompletesCommandsFlagsAndValues) {
+  // Outside of its line editor zsh cannot complete, so this prints all that it would choose from.
+  const auto offered = [&](const std::string& words) {
+    return Complete({"/usr/bin/zsh", "-f", "-c"}, "zsh",
+                    "words=(" + words + "); CURRENT=$#words; _trailcast",
+                    "compadd() { print -l -- ${(P)2} }; _describe() { compadd -a $2 }; "
+                    "words=(true); CURRENT=1; _files() { }; ");
+  };
+  EXPECT_THAT(offered("trailcast rou"), HasSubstr("routes:List the routes that a route server"));
+  EXPECT_THAT(offered("trailcast routes --near"), HasSubstr("\n--near-site\n--near-gps\n"));
+  EXPECT_EQ(offered("trailcast-agent replay --start ''"), "left\nbeginning\nanywhere\n");
+  EXPECT_THAT(offered("trailcast --domain 7 keys ''"), HasSubstr("revoke:"));
 }
 
 TEST_F(DocumentedCommands, AreFoundInALineOfShell) {
