@@ -58,7 +58,7 @@ stop() {
   on 2 "$bin/trailcast-agent" serve --name robot --store "$work/robot.db" --network-interface eth0 \
     --ros2 /robot "${sim[@]}" >"$work/robot.log" 2>&1 &
   disown
-  await 30 'the robot' says robot 'on duty'
+  await 30 'the robot' says robot 'available as'
   on 3 "$bin/trailcast" send robot follow round laps 1000 --network-interface eth0 >/dev/null
   await 30 'the robot on its way' says robot FOLLOWING
   printf '| network | pauses | told to stand after, ms: median | p99 | worst | answered after, ms: median | p99 | worst |\n'

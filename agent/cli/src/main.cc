@@ -16,7 +16,7 @@ constexpr const char* kFooter = R"(Examples:
   trailcast-agent replay --sim shop.obj --path path.csv --camera wide --seed 7 --name robot2
                          --route shop --store robot2.db --server --wait-for-route
   trailcast-agent serve  --ros2 /robot2 --name robot2 --store robot2.db
-                         # on duty: 'trailcast send robot2 follow shop'
+                         # waits for 'trailcast send robot2 follow shop'
   trailcast-agent fetch  --route shop --store robot2.db   # to hold it before it is activated
   trailcast-agent deliver --store scout.db
   trailcast-agent teachings --store scout.db              # what is there, and what was cut off
@@ -40,7 +40,7 @@ int Run(int argc, char** argv) {
   CLI::App* teach_app = app.add_subcommand("teach", "Drive a path once: makes a route of it");
   CLI::App* replay_app = app.add_subcommand("replay", "Follow a route");
   CLI::App* serve_app =
-      app.add_subcommand("serve", "Stay on duty: follow the routes that operators send it along");
+      app.add_subcommand("serve", "Stay available: follow the routes that operators send it along");
   CLI::App* fetch_app =
       app.add_subcommand("fetch", "Bring a route into the own store without following it");
   CLI::App* deliver_app =

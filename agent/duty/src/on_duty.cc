@@ -178,7 +178,7 @@ Result<void> Duty::Run() {
     now_desk_.Pause(fmt::format("its agent has started again in the middle of mission {}",
                                 current->mission.id));
   }
-  spdlog::info("on duty as '{}'", options_.agent.value());
+  spdlog::info("available as '{}'", options_.agent.value());
   while (!options_.stop()) {
     const bool drives = next_ || turning_;
     (void)exchange_.Take(drives ? milliseconds(0) : kWait);

@@ -53,7 +53,7 @@ constexpr const char* kDemoExamples =
     "  trailcast demo --seed 7 --out /tmp\n"
     "  trailcast demo --moving          # and a picture in which they drive, trailcast-demo.svg\n"
     "  trailcast demo --keep            # leaves logs, stores and true poses to look at\n"
-    "  trailcast demo --console         # robots on duty: sent, seen and stopped in a browser\n"
+    "  trailcast demo --console         # available robots: sent, seen and stopped in a browser\n"
     "  trailcast demo --network         # three scouts' routes are joined, five robots sent over "
     "them\n"
     "Exit status: 0 all arrived (with --network: or one that was carried off said why not; with\n"
@@ -273,11 +273,12 @@ Command AddDemoCommand(CLI::App& parent, const program::CommonOptions& common) {
                                "Also a picture in which robots drive, trailcast-demo.svg");
   auto* timeout = app->add_option("--timeout", options->timeout_s, "Seconds after which to give up")
                       ->check(CLI::Range(1.0, 86400.0));
-  auto* console = app->add_flag("--console", options->console,
-                                "Robots on duty, and a console to send and stop them in a browser, "
-                                "until Ctrl-C")
-                      ->excludes(timeout)
-                      ->excludes(moving);
+  auto* console =
+      app->add_flag("--console", options->console,
+                    "Available robots, and a console to send and stop them in a browser, "
+                    "until Ctrl-C")
+          ->excludes(timeout)
+          ->excludes(moving);
   app->add_flag(
          "--network", options->network,
          "Three scouts teach, their routes are joined, and five robots with other cameras are "

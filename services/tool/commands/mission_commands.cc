@@ -291,7 +291,7 @@ int List(const CLI::App& app, const program::CommonOptions& common,
 
 Command AddSend(CLI::App& parent, const program::CommonOptions& common) {
   auto options = std::make_shared<SendOptions>();
-  CLI::App* app = parent.add_subcommand("send", "Send a robot on duty along routes");
+  CLI::App* app = parent.add_subcommand("send", "Send an available robot along routes");
   app->footer(kSendExamples);
   app->add_option("ROBOT", options->robot, "Its name, as --name of 'trailcast-agent serve'")
       ->required()

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2034,SC2154  # shared with swarm.sh
-# A robot on duty is sent along the route before it is there, and the server, then the agent too, are
+# An available robot is sent along the route before it is there, and the server, then the agent too, are
 # killed meanwhile: the mission is done once, and nothing moves by itself after a restart.
 scenario_missions() {
   local told

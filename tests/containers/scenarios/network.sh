@@ -26,7 +26,7 @@ scenario_network() {
   told_network name lab-2 "hall@$place"
 
   for name in "${robots[@]}"; do start_planned "$name" serve; done
-  for name in "${robots[@]}"; do await 60 "$name on duty" says "$name" "on duty as '$name'"; done
+  for name in "${robots[@]}"; do await 60 "$name available" says "$name" "available as '$name'"; done
   for name in "${robots[@]}"; do send_planned "$name"; done
   await 60 'the first of them under way' grep -qs 'under way' "$plan/${robots[0]}.said"
   told_network close hall "$closed"

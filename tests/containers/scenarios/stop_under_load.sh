@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2034,SC2154  # shared with swarm.sh
-# A robot on duty is stopped from the console, again and again, while the server's link is full of
+# An available robot is stopped from the console, again and again, while the server's link is full of
 # segments that others fetch: it stands soon, by its own clock and its true poses.
 scenario_stop_under_load() {
   local loader stop after=() median

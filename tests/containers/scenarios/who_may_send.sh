@@ -8,7 +8,7 @@ scenario_who_may_send() {
   start_scout
   expect_taught
   start_robot robot1 wide serve
-  await 60 'robot1 on duty' says robot1 "on duty as 'robot1'"
+  await 60 'robot1 available' says robot1 "available as 'robot1'"
   await 60 'its first place' has_place robot1
   before=$(place_of robot1)
   expect_refused observer "of the role 'observer'" send robot1 follow hall

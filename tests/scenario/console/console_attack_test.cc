@@ -98,7 +98,7 @@ class ConsoleAttackTest : public ConsoleUsersTest {
     setrlimit(RLIMIT_NOFILE, &files);
     robot_ = Robot("robot1", {"--picture-rate", "5"});
     agent_ = Serve("robot1");
-    ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+    ASSERT_TRUE(agent_->WaitForOutput("available as 'robot1'")) << agent_->output();
     AddUser("anna", "operate");
     StartWithTls();
   }

@@ -190,7 +190,7 @@ TEST_F(ConsoleDoorsTest, APersonLogsInStopsARobotAndLogsOutInABrowser) {
   const auto server = Server();
   const auto robot = Robot("robot1", {});
   const auto agent = Serve("robot1");
-  ASSERT_TRUE(agent->WaitForOutput("on duty as 'robot1'")) << agent->output();
+  ASSERT_TRUE(agent->WaitForOutput("available as 'robot1'")) << agent->output();
   StartConsole({"--users", Path("users")});
   Browser browser(folder_ / "");
   ASSERT_TRUE(browser.runs()) << browser.log();

@@ -51,7 +51,7 @@ class ConsoleFleetTest : public RobotsTest {
   void PutOnDuty(const Words& robot = {}) {
     robot_ = Robot("robot1", robot);
     agent_ = Serve("robot1");
-    ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+    ASSERT_TRUE(agent_->WaitForOutput("available as 'robot1'")) << agent_->output();
   }
   [[nodiscard]] std::string Page() const {
     return "http://localhost:" + std::to_string(port_) + "/";

@@ -33,7 +33,7 @@ class ConsolePeopleTest : public ConsoleUsersTest {
     ASSERT_TRUE(Publish());
     for (std::size_t i = 0; i < kRobots.size(); ++i) StartRobot(kRobots[i], kPaths[i]);
     for (const auto& agent : agents_) {
-      ASSERT_TRUE(agent->WaitForOutput("on duty as")) << agent->output();
+      ASSERT_TRUE(agent->WaitForOutput("available as")) << agent->output();
     }
     AddUser("anna", "operate");
     AddUser("guest", "look");

@@ -35,7 +35,7 @@ TEST_F(ConsoleRunsTest, ARunIsOpenedAgainFrameByFrame) {
                        Path("logs/robot1")},
                       Drives("robot1")),
                  "duty");
-  ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+  ASSERT_TRUE(agent_->WaitForOutput("available as 'robot1'")) << agent_->output();
   StartConsole({"--logs", Path("logs")});
   ASSERT_TRUE(WaitForState("available"));
   const auto sent = Post("/api/robots/robot1/missions", {{"orders", "follow hall"}});

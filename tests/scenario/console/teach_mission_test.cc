@@ -26,7 +26,7 @@ class TeachMissionTest : public ConsoleFleetTest {
     server_ = Server();
     robot_ = Robot("robot1", With({"--sim-truth", Path("truth.csv")}, stands_there_));
     agent_ = Serve("robot1", "duty", senses_);
-    ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+    ASSERT_TRUE(agent_->WaitForOutput("available as 'robot1'")) << agent_->output();
     StartConsole();
     ASSERT_TRUE(WaitForState("available"));
   }
@@ -136,7 +136,7 @@ TEST_F(TeachMissionTest, WhatAPersonDrivesFromAfarIsFollowedByAnother) {
   const auto other = Robot("robot2", {"--sim-truth", Path("truth2.csv")});
   const auto follower = Agent(
       With({"serve", "--store", Path("robot2.db"), "--name", "robot2"}, Drives("robot2")), "duty2");
-  ASSERT_TRUE(follower->WaitForOutput("on duty as 'robot2'")) << follower->output();
+  ASSERT_TRUE(follower->WaitForOutput("available as 'robot2'")) << follower->output();
   const Ended followed = Tool({"send", "robot2", "follow", "yard", "--wait"});
   EXPECT_EQ(followed.status, 0) << followed.output << follower->output();
   EXPECT_NEAR(Along_m("truth2.csv"), end_m, 0.3);

@@ -49,7 +49,7 @@ TEST_F(GotoTest, ARobotChangesOverAtAJointAndKeepsOutOfWhatIsClosed) {
 
   const auto robot = Robot("robot1", {"--sim-truth", Path("truth.csv")});
   const auto agent = Serve("robot1");
-  ASSERT_TRUE(agent->WaitForOutput("on duty as 'robot1'")) << agent->output();
+  ASSERT_TRUE(agent->WaitForOutput("available as 'robot1'")) << agent->output();
   const Ended barred = Send({"goto", "office@3", "--from", "hall@0"});
   EXPECT_EQ(barred.status, 1) << barred.output;
   EXPECT_THAT(barred.output, AllOf(HasSubstr("closed"), HasSubstr("office 2..2.5")));
@@ -94,7 +94,7 @@ TEST_F(GotoTest, ARobotThatIsCarriedToAnotherRouteFindsItselfThereAndIsLedOn) {
   const auto robot =
       Robot("robot1", {"--sim-truth", Path("truth.csv"), "--sim-carry", "7.2,4.4,90@1.2"});
   const auto agent = Serve("robot1", "duty", {"--look-around", "0"}, "robot1.db");
-  ASSERT_TRUE(agent->WaitForOutput("on duty as 'robot1'")) << agent->output();
+  ASSERT_TRUE(agent->WaitForOutput("available as 'robot1'")) << agent->output();
   const Ended sent = Send({"goto", "office@2.5", "--from", "hall@0"});
   ASSERT_EQ(sent.status, 0) << sent.output;
   ASSERT_TRUE(agent->WaitForOutput("re-planned: it has found itself elsewhere")) << agent->output();
@@ -124,7 +124,7 @@ TEST_F(GotoTest, ARobotBacksOutAndTurnsRound) {
 
   const auto robot = Robot("robot1", {"--sim-truth", Path("truth.csv")});
   const auto agent = Serve("robot1");
-  ASSERT_TRUE(agent->WaitForOutput("on duty as 'robot1'")) << agent->output();
+  ASSERT_TRUE(agent->WaitForOutput("available as 'robot1'")) << agent->output();
   const Ended in = Send({"goto", "hall@2.8", "--from", "hall@0", "--wait"});
   ASSERT_EQ(in.status, 0) << in.output << agent->output();
   EXPECT_NEAR(Along_m("truth.csv"), 3.8, 0.3);

@@ -23,7 +23,7 @@ class MeetingTest : public RobotsTest {
                              "--max-speed", kUnhurried_mps},
                             Drives(robot)),
                        "duty-" + robot);
-    EXPECT_TRUE(agent->WaitForOutput("on duty as '" + robot + "'")) << agent->output();
+    EXPECT_TRUE(agent->WaitForOutput("available as '" + robot + "'")) << agent->output();
     return agent;
   }
 

@@ -20,7 +20,7 @@ class MissionsTest : public RobotsTest {
   void GoOnDuty() {
     robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv")});
     agent_ = Serve("robot1");
-    ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+    ASSERT_TRUE(agent_->WaitForOutput("available as 'robot1'")) << agent_->output();
   }
   Ended Tool(const Words& words) {
     return End(*Start("trailcast", words, "tool" + std::to_string(++tools_)));

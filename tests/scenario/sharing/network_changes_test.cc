@@ -211,7 +211,7 @@ TEST_F(NetworkChanges, ARobotOnAMissionGoesOnWhenItsAddressChangesAndIsHeardAndH
   const auto robot = StartAt(
       kRobot, "trailcast-agent",
       {"serve", "--sim", "indoor", "--name", "robot1", "--store", Path("robot.db")}, "robot");
-  ASSERT_TRUE(robot->WaitForOutput("on duty as 'robot1'")) << robot->output();
+  ASSERT_TRUE(robot->WaitForOutput("available as 'robot1'")) << robot->output();
   const Words trip{"send", "robot1", "follow", "hall", "..6", "--id", "trip"};
   const Ended sent = RunAt(kServer, "trailcast", trip);
   ASSERT_EQ(sent.status, 0) << sent.output << robot->output();
