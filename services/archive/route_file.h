@@ -12,7 +12,7 @@
 
 namespace trailcast::archive {
 
-inline constexpr std::uint32_t kFileVersion = 1;
+inline constexpr std::uint32_t kFileVersion = 2;
 // Larger files are neither written nor read; this is enough for 300 km of route.
 inline constexpr std::uint64_t kMaxFileBytes = 1ULL << 30U;
 

@@ -12,7 +12,7 @@ namespace trailcast::refresh {
 
 struct RefreshOptions {
   // Additions do not make a route larger than this; a route that is larger keeps its size.
-  double most_bytes_per_m = 4900.0;
+  double most_bytes_per_m = 2500.0;
   int missed_to_drop = 3;       // consecutive visits
   double most_share = 0.25;     // share of a segment's features that one visit may drop, and add
   std::size_t fewest_left = 8;  // a segment keeps so many features, whatever was missed

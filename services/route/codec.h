@@ -17,9 +17,8 @@ inline constexpr int kMaxCoordinatePx = 1 << 16;
 inline constexpr std::size_t kMaxKeyViews = 64;
 inline constexpr std::size_t kMaxKeyViewFeatures = 255;
 
-// The newest version of the route format; older ones are read, too. A segment is written in the
-// oldest that can express it.
-inline constexpr std::uint32_t kFormatVersion = 3;
+// The version of the route format; no other is read.
+inline constexpr std::uint32_t kFormatVersion = 4;
 
 // The route format (idl/route.proto), in bytes. Deterministic: equal segments give equal bytes.
 // Coordinates are rounded to 1/16 px, lengths to 0.1 mm, angles to 0.01 mrad, durations to 1 ms,

@@ -12,7 +12,7 @@ namespace trailcast::store {
 // "TRCT".
 inline constexpr std::uint32_t kApplicationId = 0x54524354;
 // The version of the tables, in SQLite's user_version; stores of another version are not opened.
-inline constexpr std::uint32_t kSchemaVersion = 6;
+inline constexpr std::uint32_t kSchemaVersion = 7;
 
 // The file of a store, locked for this process and checked before SQLite touches it (which would
 // create files beside it, or roll back a stranger's journal). The lock is the kernel's, so it ends

@@ -59,9 +59,8 @@ class RouteFileChecker {
 
   Result<void> CheckSizes(std::span<const std::uint8_t> preamble) {
     if (const auto version = NumberAt(preamble, kVersionAt, 4); version != kFileVersion) {
-      return Refuse(
-          "it is a route file of version {}, this program reads {}: is it newer than this one?",
-          version, kFileVersion);
+      return Refuse("it is a route file of version {}, this program reads {} alone: {}", version,
+                    kFileVersion, version > kFileVersion ? "update it" : "teach the route again");
     }
     const std::uint64_t promised = NumberAt(preamble, kFileSizeAt, 8);
     if (source_.size() < promised) {

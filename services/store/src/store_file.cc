@@ -133,9 +133,8 @@ Result<void> StoreFile::Inspect() const {
   const std::uint32_t version = header.user_version();
   if (version != kSchemaVersion) {
     return Fail(ErrorCode::kCorrupt,
-                "route store {} has version {}, this program reads {}; export its routes with the "
-                "program that wrote it and import them here, or teach them again, into another "
-                "file",
+                "route store {} has version {}, this program reads {}; teach its routes again, "
+                "into another file, or go on with the program that wrote it",
                 path_.string(), version, kSchemaVersion);
   }
   // With a log beside it, the file may rightly be shorter; SQLite decides when it recovers.

@@ -76,9 +76,10 @@ TEST(RouteFileDamage, AnotherKindOfFileIsToldByItsBeginning) {
 }
 
 TEST(RouteFileDamage, AnotherVersionIsNamed) {
-  EXPECT_THAT(ErrorAfter([](MadeFile& made) { made.version = 2; }),
-              HasSubstr("version 2, this program reads 1"));
-  EXPECT_THAT(ErrorAfter([](MadeFile& made) { made.version = 0; }), HasSubstr("version 0"));
+  EXPECT_THAT(ErrorAfter([](MadeFile& made) { made.version = 3; }),
+              HasSubstr("version 3, this program reads 2 alone: update it"));
+  EXPECT_THAT(ErrorAfter([](MadeFile& made) { made.version = 1; }),
+              HasSubstr("version 1, this program reads 2 alone: teach the route again"));
 }
 
 TEST(RouteFileDamage, BytesAfterTheEndAreRefused) {

@@ -11,7 +11,7 @@ namespace trailcast::archive {
 namespace {
 
 const std::filesystem::path kFile =
-    std::filesystem::path(SourceDir()) / "tests/golden/route-v1.trailcast";
+    std::filesystem::path(SourceDir()) / "tests/golden/route-v2.trailcast";
 
 void Write(const std::filesystem::path& file) {
   const test::TaughtRoute taught = test::TeachSamples(2);
@@ -46,9 +46,9 @@ TEST_F(RouteFileGolden, FileIsReadAsTheKnownRoute) {
 }
 
 // Written out here so that regenerating the file by mistake does not go unseen.
-TEST_F(RouteFileGolden, DigestIsTheOneOfVersion1) {
+TEST_F(RouteFileGolden, DigestIsTheOneOfVersion2) {
   EXPECT_EQ(route::ToHex(route::Sha256(ReadFile(kFile))),
-            "03b2e5930d9ca191ceecee98173f48f2409b7f9e4d0e8bf423eae3218ee671cf");
+            "b65af15af3b0de01805c0fb586a0a1bfe12f193b80ae9ee68d84c011e349ea3b");
 }
 
 }  // namespace

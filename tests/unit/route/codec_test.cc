@@ -47,7 +47,6 @@ TEST(Codec, TerrainComesBackUnchangedEachPartOnItsOwnAndTakesAFewBytes) {
     segment.terrain = terrain;
     const Bytes bytes = ThereAndBack(segment);
     EXPECT_LE(bytes.size() - without, terrain.known() ? 11U : 0U);
-    EXPECT_EQ(bytes[1], 1) << "version 1, whose readers skip it";
   }
 }
 
@@ -57,8 +56,7 @@ TEST(Codec, HowOftenFeaturesWereMissedComesBackAndTakesNoByteWhereNoneWas) {
   segment.features[3].missed = 2;
   segment.features[39].missed = 255;
   const Bytes bytes = ThereAndBack(segment);
-  EXPECT_EQ(bytes.size(), without + 40 + 2);
-  EXPECT_EQ(bytes[1], 2) << "version 2, whose readers skip it";
+  EXPECT_LE(bytes.size(), without + 20);
 }
 
 TEST(Codec, AKeyViewThatAFollowerAddedComesBackAsOne) {
@@ -67,8 +65,7 @@ TEST(Codec, AKeyViewThatAFollowerAddedComesBackAsOne) {
   segment.key_views[1].missed = 0;
   segment.key_views[3].missed = 255;
   const Bytes bytes = ThereAndBack(segment);
-  EXPECT_LE(bytes.size(), without + 2 + 3 + 2) << "and their lengths' own second bytes";
-  EXPECT_EQ(bytes[1], 2) << "version 2, whose readers take it for one of the scout's";
+  EXPECT_LE(bytes.size(), without + 3);
 }
 
 TEST(Codec, TerrainOfARobotGoneMadIsHeldWithinBounds) {
@@ -79,22 +76,11 @@ TEST(Codec, TerrainOfARobotGoneMadIsHeldWithinBounds) {
   EXPECT_EQ(decoded->terrain, (Terrain{0.0, 100.0, -1.571}));
 }
 
-TEST(Codec, ASegmentIsWrittenInTheOldestVersionThatCanExpressIt) {
-  const Bytes first = Encode(SampleSegment(7, 2));
-  EXPECT_EQ(first[1], 1);
-  EXPECT_EQ(Encode(SampleSegmentWithKeyViews(7, 2))[1], 2);
-  EXPECT_EQ(Encode(SampleSegmentDrivenBackwards(7, 2))[1], 3);
-}
-
-TEST(Codec, AFeatureOfAKeyViewTakes38BytesAndOneOfASegmentWithThem32Less) {
+TEST(Codec, WhatAKeyViewSharesWithOneBeforeItTakesFewBytes) {
   Segment segment = SampleSegmentWithKeyViews(7, 40);
   const std::size_t with = Encode(segment).size();
   segment.key_views.pop_back();
-  EXPECT_LE(with - Encode(segment).size(), 40U * 38U);
-  segment.key_views.clear();
-  segment.turn_before_rad = 1.0;
-  EXPECT_NEAR(static_cast<double>(Encode(segment).size()),
-              static_cast<double>(Encode(SampleSegment(7, 40)).size()) - 40 * 32, 16);
+  EXPECT_LE(with - Encode(segment).size(), 40U * 16U);
 }
 
 TEST(Codec, SegmentWithoutFeaturesOrOdometryComesBackUnchanged) {
@@ -194,13 +180,23 @@ TEST(Codec, EqualSegmentsGiveEqualBytesAndDecodingThenEncodingGivesThemAgain) {
   EXPECT_EQ(Encode(*decoded), bytes);
 }
 
-TEST(Codec, FeatureOfTwoToFourKnotsTakesAboutAHundredBytes) {
-  for (const int knots : {2, 3, 4}) {
-    const double bytes = static_cast<double>(Encode(SampleSegment(0, 100, knots)).size()) / 100.0;
-    RecordProperty(std::to_string(knots) + "_knots", std::to_string(bytes));
-    EXPECT_LT(bytes, 112.0) << knots << " knots";
-    EXPECT_GT(bytes, 95.0) << "the patch and the descriptor alone take 93";
+// Where four fields of two greys meet, so far to the right and down.
+Patch Corner(unsigned right, unsigned down) {
+  Patch patch{};
+  for (unsigned i = 0; i < patch.size(); ++i) {
+    patch.at(i) = (i % kPatchSize < right) == (i / kPatchSize < down) ? 11 : 5;
   }
+  return patch;
+}
+
+TEST(Codec, APlainPatternTakesFewBytesAndNoiseNoMoreThanItsSamples) {
+  Segment segment = SampleSegment(7, 100, 2);
+  const std::size_t noisy = Encode(segment).size();
+  EXPECT_LT(noisy, 100U * (61 + 5 + 33 + 4));
+  for (unsigned i = 0; i < segment.features.size(); ++i) {
+    segment.features[i].patch = Corner(3 + i % 5, 3 + i % 6);
+  }
+  EXPECT_LT(ThereAndBack(segment).size(), noisy - 100 * 35);
 }
 
 }  // namespace

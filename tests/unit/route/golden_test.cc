@@ -14,9 +14,9 @@ namespace trailcast::route {
 namespace {
 
 const std::filesystem::path kGolden = std::filesystem::path(SourceDir()) / "tests/golden";
-const std::filesystem::path kFile = kGolden / "segment-v1.bin";
-const std::filesystem::path kFileOfVersion2 = kGolden / "segment-v2.bin";
-const std::filesystem::path kFileOfVersion3 = kGolden / "segment-v3.bin";
+const std::filesystem::path kFile = kGolden / "segment-v4.bin";
+const std::filesystem::path kFileWithKeyViews = kGolden / "segment-v4-key-views.bin";
+const std::filesystem::path kFileDrivenBackwards = kGolden / "segment-v4-backwards.bin";
 
 Bytes ReadFile(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -34,9 +34,9 @@ class Golden : public testing::Test {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): no other thread runs here.
     if (std::getenv("TRAILCAST_WRITE_GOLDEN") == nullptr) return;
     Write(kFile, Encode(SampleSegment(42, 3, 4)));
-    Write(kFileOfVersion2, Encode(SampleSegmentWithKeyViews(42, 3)));
-    Write(kFileOfVersion3, Encode(SampleSegmentDrivenBackwards(42, 3)));
-    GTEST_SKIP() << "wrote " << kFile << " and those of later versions"
+    Write(kFileWithKeyViews, Encode(SampleSegmentWithKeyViews(42, 3)));
+    Write(kFileDrivenBackwards, Encode(SampleSegmentDrivenBackwards(42, 3)));
+    GTEST_SKIP() << "wrote " << kFile << " and the two beside it"
                  << "; see tests/golden/README.md before committing it";
   }
 };
@@ -53,25 +53,25 @@ TEST_F(Golden, FileIsDecodedToTheKnownSegment) {
 
 TEST_F(Golden, SegmentWithKeyViewsIsEncodedToItsFileAndDecodedFromIt) {
   const Segment segment = SampleSegmentWithKeyViews(42, 3);
-  EXPECT_EQ(Encode(segment), ReadFile(kFileOfVersion2));
-  const Result<Segment> decoded = Decode(ReadFile(kFileOfVersion2));
+  EXPECT_EQ(Encode(segment), ReadFile(kFileWithKeyViews));
+  const Result<Segment> decoded = Decode(ReadFile(kFileWithKeyViews));
   ASSERT_TRUE(decoded) << decoded.error().message;
   EXPECT_EQ(*decoded, segment);
 }
 
 TEST_F(Golden, SegmentDrivenBackwardsIsEncodedToItsFileAndDecodedFromIt) {
   const Segment segment = SampleSegmentDrivenBackwards(42, 3);
-  EXPECT_EQ(Encode(segment), ReadFile(kFileOfVersion3));
-  const Result<Segment> decoded = Decode(ReadFile(kFileOfVersion3));
+  EXPECT_EQ(Encode(segment), ReadFile(kFileDrivenBackwards));
+  const Result<Segment> decoded = Decode(ReadFile(kFileDrivenBackwards));
   ASSERT_TRUE(decoded) << decoded.error().message;
   EXPECT_EQ(*decoded, segment);
 }
 
 // Stores and receipts hold digests of these bytes: written out here so that regenerating the file
 // by mistake does not go unseen.
-TEST_F(Golden, DigestIsTheOneOfVersion1) {
+TEST_F(Golden, DigestIsTheOneOfVersion4) {
   EXPECT_EQ(ToHex(Sha256(ReadFile(kFile))),
-            "94b7c555f107507d5761757e09813302969a13b934a2b22bcaa156f3236d7361");
+            "561a1614615657eb9964f6b76fa59375e5ee5c78709667953eb813dd1ece01b9");
 }
 
 }  // namespace

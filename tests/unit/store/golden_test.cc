@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFile = fs::path(SourceDir()) / "tests/golden/routes-v6.db";
+const fs::path kFile = fs::path(SourceDir()) / "tests/golden/routes-v7.db";
 
 class StoreGolden : public testing::Test {
  protected:

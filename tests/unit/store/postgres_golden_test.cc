@@ -14,7 +14,7 @@ namespace trailcast::store {
 namespace {
 
 const std::filesystem::path kFile =
-    std::filesystem::path(SourceDir()) / "tests/golden/routes-postgres-v3.sql";
+    std::filesystem::path(SourceDir()) / "tests/golden/routes-postgres-v4.sql";
 
 // Without the comments and the words to psql that pg_dump puts around the SQL.
 void WriteGolden(const std::string& url) {

@@ -88,7 +88,7 @@ TEST_F(PostgresStore, OtherVersionsAndEncodingsAreRefused) {
   EXPECT_THAT(MessageOf(OpenStore(latin)), HasSubstr("is in LATIN1, expected UTF8"));
   (void)Open();
   Execute("UPDATE trailcast.store SET version = 77");
-  EXPECT_THAT(MessageOf(OpenStore(url_)), HasSubstr("has version 77, this program reads 3"));
+  EXPECT_THAT(MessageOf(OpenStore(url_)), HasSubstr("has version 77, this program reads 4"));
 }
 
 TEST_F(PostgresStore, OpenedForReadingItWritesNothing) {

@@ -272,7 +272,7 @@ TEST_F(SalvageTest, AStoreOfAnotherVersionIsRefusedAndStaysAsItIs) {
   const auto repaired = Repair(file_);
   ASSERT_FALSE(repaired);
   EXPECT_EQ(repaired.error().code, ErrorCode::kCorrupt);
-  EXPECT_THAT(repaired.error().message, HasSubstr("nothing of a route store of version 6"));
+  EXPECT_THAT(repaired.error().message, HasSubstr("nothing of a route store of version 7"));
   EXPECT_EQ(Read(), before);
 }
 

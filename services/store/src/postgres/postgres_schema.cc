@@ -5,7 +5,7 @@
 namespace trailcast::store {
 namespace {
 
-constexpr int kSchemaVersion = 3;
+constexpr int kSchemaVersion = 4;
 constexpr int kOldestServer = 13'00'00;  // in PQserverVersion's form; tested with 15
 // The process that makes the tables holds this lock: "TRCT" in ASCII.
 constexpr const char* kMakersLock = "SELECT pg_advisory_xact_lock(1414677332)";
@@ -134,9 +134,8 @@ Result<void> PrepareSchema(pqxx::connection& connection, const std::string& stor
   }
   if (*version == kSchemaVersion) return {};
   return Fail(ErrorCode::kInvalidArgument,
-              "route store {} has version {}, this program reads {}; export its routes with the "
-              "program that wrote it and import them here, or teach them again, into another "
-              "database",
+              "route store {} has version {}, this program reads {}; teach its routes again, into "
+              "another database, or go on with the program that wrote it",
               store, *version, kSchemaVersion);
 }
 
