@@ -283,11 +283,11 @@ TEST(RefreshViews, ARouteWithOdometryKeepsItsBudget) {
   const std::vector<Segment> route = SampleRoute(1);
   const double is = static_cast<double>(BytesOf(route));
   RefreshOptions options;
-  options.most_bytes_per_m = (is + 900.0) / route[0].length_m;  // a view has about 800
+  options.most_bytes_per_m = (is + 600.0) / route[0].length_m;  // a view has about 450
   const auto refreshed = Refresh(route, VisitByViews(route), options);
   ASSERT_TRUE(refreshed);
   EXPECT_EQ(refreshed->views.added, 1);
-  EXPECT_LE(static_cast<double>(BytesOf(refreshed->segments)), is + 900.0);
+  EXPECT_LE(static_cast<double>(BytesOf(refreshed->segments)), is + 600.0);
 }
 
 TEST(RefreshViews, AVisitThatRecognisedLittleIsNotBelievedAndWhatItSaysOfFeaturesIs) {
