@@ -68,11 +68,13 @@ class RobotsTest : public ProgramsTest {
   }
   // Half as fast as it could: a tool that starts late on a busy machine finds it on its way.
   static constexpr const char* kUnhurried_mps = "0.25";
+  // Where nobody has to.
+  static constexpr const char* kUnwatched_mps = "0.5";
   // A robot's agent, on duty; the store has its routes.
   std::unique_ptr<Process> Serve(const std::string& robot, const std::string& log = "duty",
                                  const Words& more = {}, const std::string& store = "routes.db") {
     return Agent(With(With({"serve", "--store", Path(store), "--name", robot, "--max-speed",
-                            kUnhurried_mps, "--battery-topic", "battery_state"},
+                            most_mps_, "--battery-topic", "battery_state"},
                            Drives(robot)),
                       more),
                  log);
@@ -137,6 +139,8 @@ class RobotsTest : public ProgramsTest {
     }
     return value;
   }
+
+  const char* most_mps_ = kUnhurried_mps;  // of those that Serve puts on duty
 
  private:
   std::map<std::string, std::string> taught_;  // by its store

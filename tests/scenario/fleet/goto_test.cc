@@ -10,6 +10,7 @@ using testing::HasSubstr;
 
 class GotoTest : public RobotsTest {
  protected:
+  GotoTest() { most_mps_ = kUnwatched_mps; }
   Ended Tool(const Words& words) {
     return End(*Start("trailcast", words, "tool" + std::to_string(++tools_)));
   }

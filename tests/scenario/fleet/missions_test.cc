@@ -35,6 +35,7 @@ class MissionsTest : public RobotsTest {
 };
 
 TEST_F(MissionsTest, ARobotOnDutyFollowsWhatItIsSentAlong) {
+  most_mps_ = kUnwatched_mps;
   GoOnDuty();
   const Ended sent = Send({"follow", "hall", "..2", "wait", "0.5", "--id", "first", "--wait"});
   EXPECT_EQ(sent.status, 0) << sent.output << agent_->output();
@@ -109,6 +110,7 @@ TEST_F(MissionsTest, APausedMissionGoesOnAndNothingMovesByItselfAfterARestart) {
 }
 
 TEST_F(MissionsTest, ARobotThatIsOutOfReachGetsItsMissionWhenItIsBack) {
+  most_mps_ = kUnwatched_mps;
   const Ended kept = Send({"follow", "hall", "--id", "later"});
   EXPECT_EQ(kept.status, 0) << kept.output;
   EXPECT_THAT(kept.output, HasSubstr("a server keeps it"));
