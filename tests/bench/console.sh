@@ -8,8 +8,8 @@
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 bin=$(cd "$here/../../build/release/bin" && pwd)
-# shellcheck source=tests/bench/network_lab.sh
-source "$here/network_lab.sh"
+# shellcheck source=tests/bench/network/lab.sh
+source "$here/network/lab.sh"
 robots=${ROBOTS:-100}
 routes=${ROUTES:-5000}
 

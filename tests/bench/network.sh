@@ -10,16 +10,16 @@
 #   tests/bench/network.sh sizes FOLDER [AGENTS...]
 #   tests/bench/network.sh sites [SEGMENTS]
 # LIGHT_HOSTS (20) says at how many hosts the agents of `fleet`, `neighbours` and `sizes` are.
-# What each is, is in a file of its own: network_fetching.sh, _wire, _server, _fleet, _words, _sites.
+# What each is, is in a file of its own in network/: fetching.sh, wire, server, fleet, words, sites.
 # shellcheck disable=SC2034  # what the sourced files use
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 bin=$(cd "$here/../../build/release/bin" && pwd)
-# shellcheck source=tests/bench/network_lab.sh
-source "$here/network_lab.sh"
+# shellcheck source=tests/bench/network/lab.sh
+source "$here/network/lab.sh"
 for part in fetching wire server fleet words sites; do
   # shellcheck source=/dev/null
-  source "$here/network_$part.sh"
+  source "$here/network/$part.sh"
 done
 
 fetch_timeout=120

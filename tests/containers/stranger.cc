@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "services/exchange/topics.h"
-#include "tests/support/sniffer.h"
-#include "tests/support/stranger.h"
+#include "tests/support/strangers/sniffer.h"
+#include "tests/support/strangers/stranger.h"
 
 namespace {
 

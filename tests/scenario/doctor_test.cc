@@ -3,8 +3,8 @@
 #include "services/lab/simulated/simulated_device.h"
 #include "services/lab/trial/recording/odometry_noise.h"
 #include "tests/scenario/programs.h"
-#include "tests/support/bag_writers.h"
-#include "tests/support/ros_messages.h"
+#include "tests/support/recorded/bag_writers.h"
+#include "tests/support/recorded/ros_messages.h"
 
 namespace trailcast::test {
 namespace {

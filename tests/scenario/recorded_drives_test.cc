@@ -1,7 +1,7 @@
 // Drives as a robot's own recorder writes them, made of runs that nobody here recorded, give the
 // answers that their pictures give. Skipped, visibly, where those are absent.
 #include "tests/scenario/recorded_runs.h"
-#include "tests/support/record_drive.h"
+#include "tests/support/recorded/record_drive.h"
 
 namespace trailcast::test {
 namespace {

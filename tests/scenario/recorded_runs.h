@@ -9,7 +9,7 @@
 
 #include "tests/scenario/programs.h"
 #include "tests/support/places.h"
-#include "tests/support/record_through.h"
+#include "tests/support/recorded/record_through.h"
 
 namespace trailcast::test {
 

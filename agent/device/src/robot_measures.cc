@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "agent/device/src/picture_steps.h"
-#include "agent/device/src/ros2_picture.h"
+#include "agent/device/src/ros2/ros2_picture.h"
 #include "agent/device/src/scan_measures.h"
 #include "agent/device/stamp_clock.h"
 #include "services/base/angles.h"

@@ -10,7 +10,7 @@
 #include "tests/scenario/console/console_fleet.h"
 #include "tests/scenario/console/webdriver.h"
 #include "tests/support/places.h"
-#include "tests/support/self_signed.h"
+#include "tests/support/strangers/self_signed.h"
 
 namespace trailcast::test {
 

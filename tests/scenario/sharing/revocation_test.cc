@@ -8,7 +8,7 @@
 #include "services/security/revocation_list.h"
 #include "services/security/src/files.h"
 #include "tests/scenario/sharing/secured_fleet.h"
-#include "tests/support/old_keys.h"
+#include "tests/support/strangers/old_keys.h"
 
 namespace trailcast::test {
 namespace {

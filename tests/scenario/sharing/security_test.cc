@@ -8,8 +8,8 @@
 #include "services/store/sqlite_store.h"
 #include "tests/scenario/sharing/secured_fleet.h"
 #include "tests/support/network_lab.h"
-#include "tests/support/old_keys.h"
-#include "tests/support/sniffer.h"
+#include "tests/support/strangers/old_keys.h"
+#include "tests/support/strangers/sniffer.h"
 
 namespace trailcast::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "tests/support/await.h"
 #include "tests/support/pieces.h"
 #include "tests/support/places.h"
-#include "tests/support/stranger.h"
+#include "tests/support/strangers/stranger.h"
 
 namespace trailcast::test {
 namespace {

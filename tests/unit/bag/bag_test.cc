@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "services/bag/ros_messages.h"
-#include "tests/support/bag_writers.h"
 #include "tests/support/places.h"
-#include "tests/support/ros_messages.h"
+#include "tests/support/recorded/bag_writers.h"
+#include "tests/support/recorded/ros_messages.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/bag/bag_reading.h"
 

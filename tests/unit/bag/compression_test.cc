@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "services/bag/src/crc32.h"
-#include "tests/support/bag_writers.h"
+#include "tests/support/recorded/bag_writers.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::bag {

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "services/bag/bag.h"
-#include "tests/support/bag_writers.h"
+#include "tests/support/recorded/bag_writers.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/bag/bag_reading.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/bag_writers.h"
+#include "tests/support/recorded/bag_writers.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/bag/bag_reading.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/support/ros2_bytes.h"
-#include "tests/support/ros_messages.h"
+#include "tests/support/recorded/ros2_bytes.h"
+#include "tests/support/recorded/ros_messages.h"
 
 namespace trailcast::bag {
 namespace {

@@ -14,7 +14,7 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
 #include "tests/support/await.h"
-#include "tests/support/sample_run.h"
+#include "tests/support/recorded/sample_run.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/walk_frames.h"
 #include "tests/unit/console/described.h"

@@ -14,7 +14,7 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
 #include "tests/support/await.h"
-#include "tests/support/hostile_client.h"
+#include "tests/support/strangers/hostile_client.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/console/described.h"
 

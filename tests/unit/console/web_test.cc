@@ -15,7 +15,7 @@
 #include "services/fleet/routes/route_export.h"
 #include "services/program/presence.h"
 #include "tests/support/await.h"
-#include "tests/support/hostile_client.h"
+#include "tests/support/strangers/hostile_client.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/console/described.h"
 

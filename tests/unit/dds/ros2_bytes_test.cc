@@ -17,7 +17,7 @@
 
 #include "services/dds/src/ros2/ros2_wire.h"
 #include "tests/support/places.h"
-#include "tests/support/ros2_bytes.h"
+#include "tests/support/recorded/ros2_bytes.h"
 
 namespace trailcast::dds {
 namespace {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/bag_writers.h"
-#include "tests/support/ros_messages.h"
+#include "tests/support/recorded/bag_writers.h"
+#include "tests/support/recorded/ros_messages.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/walk_frames.h"
 

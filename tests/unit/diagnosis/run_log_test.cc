@@ -10,7 +10,7 @@
 #include "agent/diagnosis/src/protobuf_writer.h"
 #include "agent/diagnosis/src/run_log_messages.h"
 #include "services/bag/mcap_writer.h"
-#include "tests/support/sample_run.h"
+#include "tests/support/recorded/sample_run.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::agent {

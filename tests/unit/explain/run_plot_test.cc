@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "services/plot/plot_style.h"
-#include "tests/support/sample_run.h"
+#include "tests/support/recorded/sample_run.h"
 
 namespace trailcast::explain {
 namespace {

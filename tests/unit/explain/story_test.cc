@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "services/explain/src/incidents.h"
-#include "tests/support/sample_run.h"
+#include "tests/support/recorded/sample_run.h"
 
 namespace trailcast::explain {
 namespace {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "tests/support/await.h"
-#include "tests/support/hostile_client.h"
+#include "tests/support/strangers/hostile_client.h"
 
 namespace trailcast::http {
 namespace {

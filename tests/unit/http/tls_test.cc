@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "services/http/server.h"
-#include "tests/support/hostile_client.h"
-#include "tests/support/self_signed.h"
+#include "tests/support/strangers/hostile_client.h"
+#include "tests/support/strangers/self_signed.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::http {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "services/security/authority.h"
-#include "tests/support/old_keys.h"
+#include "tests/support/strangers/old_keys.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::security {

@@ -9,7 +9,7 @@
 #include "services/exchange/publish.h"
 #include "services/exchange/route_sender.h"
 #include "services/route/manifest.h"
-#include "tests/bench/network_bench.h"
+#include "tests/bench/network/network_bench.h"
 #include "tests/support/pieces.h"
 #include "tests/unit/route/sample_segment.h"
 

@@ -1,4 +1,4 @@
-#include "agent/device/src/time_in.h"
+#include "agent/device/src/recorded/time_in.h"
 
 #include <cmath>
 #include <utility>

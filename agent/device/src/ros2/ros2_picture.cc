@@ -1,4 +1,4 @@
-#include "agent/device/src/ros2_picture.h"
+#include "agent/device/src/ros2/ros2_picture.h"
 
 #include "services/image/files.h"
 #include "services/image/raw_picture.h"

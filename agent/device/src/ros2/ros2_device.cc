@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "agent/device/src/ros2_state.h"
-#include "agent/device/src/ros2_trouble.h"
+#include "agent/device/src/ros2/ros2_state.h"
+#include "agent/device/src/ros2/ros2_trouble.h"
 #include "services/base/guarded.h"
 #include "services/image/files.h"
 

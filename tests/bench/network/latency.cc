@@ -6,7 +6,7 @@
 #include "services/dds/dds_exchange.h"
 #include "services/security/authority.h"
 #include "services/security/member_keys.h"
-#include "tests/bench/network_bench.h"
+#include "tests/bench/network/network_bench.h"
 #include "tests/support/pieces.h"
 #include "tests/support/temp_dir.h"
 

@@ -4,7 +4,7 @@
 #include "services/base/number_table.h"
 #include "services/plot/plot_style.h"
 #include "services/plot/strip_chart.h"
-#include "tests/bench/network_bench.h"
+#include "tests/bench/network/network_bench.h"
 
 namespace trailcast::bench {
 namespace {

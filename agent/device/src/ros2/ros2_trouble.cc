@@ -1,4 +1,4 @@
-#include "agent/device/src/ros2_trouble.h"
+#include "agent/device/src/ros2/ros2_trouble.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include "services/dds/dds_exchange.h"
 #include "services/exchange/topics.h"
 #include "services/fleet/ask.h"
-#include "tests/bench/network_bench.h"
+#include "tests/bench/network/network_bench.h"
 
 namespace trailcast::bench {
 namespace {

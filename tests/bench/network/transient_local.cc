@@ -6,7 +6,7 @@
 
 #include "services/dds/src/entities.h"
 #include "services/dds/src/wire.h"
-#include "tests/bench/network_bench.h"
+#include "tests/bench/network/network_bench.h"
 #include "tests/support/pieces.h"
 
 namespace trailcast::bench {

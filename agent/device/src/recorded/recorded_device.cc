@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "agent/device/src/time_in.h"
+#include "agent/device/src/recorded/time_in.h"
 #include "services/base/number_table.h"
 #include "services/vision/picture_intake.h"
 

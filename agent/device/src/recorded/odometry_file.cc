@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "agent/device/src/time_in.h"
+#include "agent/device/src/recorded/time_in.h"
 #include "services/base/angles.h"
 #include "services/base/number_table.h"
 

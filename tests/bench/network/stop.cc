@@ -8,7 +8,7 @@
 #include "services/base/unix_time.h"
 #include "services/dds/dds_exchange.h"
 #include "services/fleet/now_client.h"
-#include "tests/bench/network_bench.h"
+#include "tests/bench/network/network_bench.h"
 
 namespace trailcast::bench {
 namespace {

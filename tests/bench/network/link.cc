@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "services/program/stop_signal.h"
-#include "tests/bench/network_bench.h"
+#include "tests/bench/network/network_bench.h"
 
 namespace trailcast::bench {
 namespace {

@@ -1,5 +1,5 @@
 // What network.sh measures with; see network_bench.h.
-#include "tests/bench/network_bench.h"
+#include "tests/bench/network/network_bench.h"
 
 #include <fmt/format.h>
 

@@ -16,7 +16,7 @@
 #include "services/program/presence.h"
 #include "services/program/stop_signal.h"
 #include "services/route/digest.h"
-#include "tests/bench/network_bench.h"
+#include "tests/bench/network/network_bench.h"
 
 namespace trailcast::bench {
 namespace {

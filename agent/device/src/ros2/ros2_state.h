@@ -15,7 +15,7 @@
 #include "agent/device/ros2_device.h"
 #include "agent/device/sensed_poses.h"
 #include "agent/device/src/robot_watch.h"
-#include "agent/device/src/ros2_picture.h"
+#include "agent/device/src/ros2/ros2_picture.h"
 #include "agent/device/src/still_picture_watch.h"
 #include "agent/device/src/still_watch.h"
 #include "services/motion/battery.h"

@@ -1,4 +1,4 @@
-#include "agent/device/src/bag_topics.h"
+#include "agent/device/src/recorded/bag_topics.h"
 
 #include <algorithm>
 #include <iterator>

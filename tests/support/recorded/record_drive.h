@@ -10,8 +10,8 @@
 
 #include "services/base/time.h"
 #include "services/image/files.h"
-#include "tests/support/bag_writers.h"
-#include "tests/support/ros_messages.h"
+#include "tests/support/recorded/bag_writers.h"
+#include "tests/support/recorded/ros_messages.h"
 
 namespace trailcast::test {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "agent/device/src/ros2_state.h"
-#include "agent/device/src/ros2_trouble.h"
+#include "agent/device/src/ros2/ros2_state.h"
+#include "agent/device/src/ros2/ros2_trouble.h"
 
 namespace trailcast::agent {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "agent/device/recorded_clock.h"
 #include "agent/device/recorded_poses.h"
-#include "agent/device/src/bag_topics.h"
+#include "agent/device/src/recorded/bag_topics.h"
 #include "services/bag/ros_messages.h"
 #include "services/image/files.h"
 #include "services/vision/picture_intake.h"
