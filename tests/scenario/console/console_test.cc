@@ -230,14 +230,15 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   EXPECT_EQ(Post("/api/robots/robot1/release").status, 200);
   EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
   ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
-  EXPECT_EQ(browser.Run("return document.querySelector('button.all').className"), "stop all")
-      << "it is filled while one may move";
+  const auto stop_all_is = [&](const char* classes) {
+    return WaitUntil([&] {
+      return browser.Run("return document.querySelector('button.all').className") == json(classes);
+    });
+  };
+  EXPECT_TRUE(stop_all_is("stop all")) << "it is filled while one may move";
   ASSERT_TRUE(browser.HoldKey("s", 50));
   ASSERT_TRUE(WaitForState("stopped")) << "one key: " << browser.Text();
-  EXPECT_TRUE(WaitUntil([&] {
-    return browser.Run("return document.querySelector('button.all').className") ==
-           json("stop all stands");
-  })) << "it is outlined once all stand";
+  EXPECT_TRUE(stop_all_is("stop all stands")) << "it is outlined once all stand";
   ASSERT_TRUE(browser.HoldKey("/", 50));
   ASSERT_TRUE(browser.Type("//dialog/input", "release robot1\xEE\x80\x87"));  // Enter
   ASSERT_TRUE(WaitUntil([&] { return Robot1().value("state", "") != "stopped"; }))
