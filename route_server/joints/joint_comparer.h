@@ -14,7 +14,7 @@
 
 namespace trailcast::server {
 
-// Compares routes view by view, on a thread of its own with the lowest priority.
+// Compares routes view by view, on a thread of its own with a low priority.
 class JointComparer {
  public:
   // The bound on processor time. The junctions found by then are the result.

@@ -63,7 +63,7 @@ class OpenedRun {
 };
 
 // The logs of runs in a folder, and those that people uploaded. All of them are read by one thread
-// of the lowest priority. May be used from any thread.
+// of low priority. May be used from any thread.
 class Runs {
  public:
   static constexpr std::size_t kMostUploads = 4;  // that are kept

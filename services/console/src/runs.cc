@@ -94,8 +94,10 @@ void Runs::Close() {
 }
 
 void Runs::Run() {
-  constexpr int kLowest = 19;
-  GiveWay(kLowest);
+  // A person waits for it, so that it keeps a tenth of what another thread that takes all it can
+  // get has.
+  constexpr int kATenth = 10;
+  GiveWay(kATenth);
   std::unique_lock lock(mutex_);
   while (!closed_) {
     if (Work(lock)) {
