@@ -30,11 +30,14 @@ class RobotsTest : public ProgramsTest {
                                  const std::string& path = kPath) {
     const std::string file = Path(name + "-path.csv");
     std::ofstream(file) << "x_m,y_m\n" << path;
-    return Start("trailcast",
-                 With({"robot", "--sim", "indoor", "--path", file, "--ros2", "/" + name,
-                       "--ros-domain", "3", "--ros-dds-tag", tag_},
-                      words),
-                 name);
+    auto robot = Start("trailcast",
+                       With({"robot", "--sim", "indoor", "--path", file, "--ros2", "/" + name,
+                             "--ros-domain", "3", "--ros-dds-tag", tag_},
+                            words),
+                       name);
+    // An agent that hears nothing for ten seconds gives the robot up.
+    EXPECT_TRUE(robot->WaitForOutput("/image_raw, in ")) << robot->output();
+    return robot;
   }
   [[nodiscard]] Words Drives(const std::string& robot) const {
     return {"--ros2", "/" + robot, "--ros-domain", "3", "--ros-dds-tag", tag_};
