@@ -270,7 +270,19 @@ Result<void> MissionBoard::LookUp(const exchange::MissionRequest& request,
   if (!page) return tl::unexpected(page.error());
   reply.missions = std::move(page->missions);
   reply.next = page->next;
+  if (!request.query.agent.empty()) reply.robots = RobotsLike(request.query.agent);
   return {};
+}
+
+// Returns the robot itself if it was heard; else who asks can say which may have been meant.
+std::vector<std::string> MissionBoard::RobotsLike(const std::string& robot) const {
+  if (met_.Find(AgentId(robot)) != nullptr) return {robot};
+  std::vector<std::string> robots;
+  for (const auto& [agent, met] : met_) {
+    if (robots.size() == exchange::kMaxRobotsTold) break;
+    robots.push_back(agent.value());
+  }
+  return robots;
 }
 
 void MissionBoard::On(const exchange::MissionRequest& request) {
@@ -343,6 +355,7 @@ void MissionBoard::On(const exchange::AgentStatus& status, Time now) {
     heard_.Erase(status.agent);
     return;
   }
+  met_.Touch(status.agent);
   Heard& heard = heard_.Touch(status.agent);
   if (heard.instance == status.instance) return;
   heard = {.instance = status.instance,

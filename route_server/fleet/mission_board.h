@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "services/base/newest_map.h"
@@ -68,6 +69,7 @@ class MissionBoard {
   void On(const exchange::MissionRequest& request);
   [[nodiscard]] Result<void> LookUp(const exchange::MissionRequest& request,
                                     exchange::MissionReply& reply);
+  [[nodiscard]] std::vector<std::string> RobotsLike(const std::string& robot) const;
   void On(const exchange::NowCommand& command, std::int64_t now_unix_ms);
   void On(const exchange::NowAnswer& answer);
   void On(const exchange::AgentStatus& status, Time now);
@@ -107,6 +109,8 @@ class MissionBoard {
   // Each robot's last reports on its missions that have not ended, by their ids. It may have lost
   // them since, with its disk.
   NewestMap<AgentId, std::map<std::string, mission::Report>> unended_{kMostAgents};
+  // The robots that were heard since the server started.
+  NewestMap<AgentId, std::monostate> met_{kMostAgents};
   struct Heard {
     std::uint64_t instance = 0;
     Time tell_at{};

@@ -11,11 +11,6 @@
 
 namespace trailcast::fleet {
 
-// kNotFound, and which of `robots` may have been meant.
-[[nodiscard]] Error UnknownRobot(const std::string& name, std::vector<std::string> robots);
-// Of one robot: whether it was ever there to take one.
-[[nodiscard]] bool HasTakenAny(const std::vector<mission::Record>& missions);
-
 // What is heard of one mission that was sent. No I/O, no clock: the mission is to be published,
 // again and again, while everything that is heard goes to Hear.
 class Sending {

@@ -324,6 +324,7 @@ class Samples {
     wire.missions._buffer = Many<trailcast_wire_MissionRecord>(missions_, wire.missions._length);
     wire.commands._length = Count();
     wire.commands._buffer = Many<trailcast_wire_GivenCommand>(commands_, wire.commands._length);
+    FillTexts(wire.robots);
     wire.next = input_.ConsumeIntegral<std::uint64_t>();
     wire.error = Text();
   }

@@ -10,6 +10,7 @@
 #include "services/console/src/api/look_errand.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
+#include "services/fleet/known_robot.h"
 #include "services/fleet/sending.h"
 #include "services/fleet/telling.h"
 #include "services/program/json.h"
@@ -105,10 +106,7 @@ class WhoErrand final : public ErrandFor<std::optional<Error>> {
   [[nodiscard]] std::vector<exchange::Message> Words() const override { return {}; }
   void Hear(const exchange::Message& /*message*/) override {}
   void Begin(FleetState& state, std::chrono::steady_clock::time_point /*now*/) override {
-    // In a star no robot is heard at all.
-    const std::vector<std::string> robots = state.Robots();
-    if (state.Knows(robot_) || robots.empty()) return;
-    unknown_ = fleet::UnknownRobot(robot_.value(), robots);
+    if (!state.Knows(robot_)) unknown_ = fleet::UnknownRobot(robot_.value(), state.Robots());
   }
   [[nodiscard]] bool IsOver(milliseconds /*since*/) const override { return true; }
 
@@ -273,7 +271,7 @@ std::optional<Error> Desk::Unknown(const AgentId& robot) {
   mission::Query of_robot;
   of_robot.agent = robot.value();
   const auto missions = Missions(of_robot);
-  if (!missions || fleet::HasTakenAny(missions->missions)) return std::nullopt;
+  if (!missions || fleet::HasHeardOf(*missions, robot.value())) return std::nullopt;
   return *std::move(*unknown);
 }
 

@@ -322,6 +322,7 @@ Message From(const trailcast_wire_MissionReply& wire) {
                      .request = wire.request,
                      .missions = {},
                      .commands = {},
+                     .robots = Texts(wire.robots),
                      .next = wire.next,
                      .error = Text(wire.error)};
   for (const trailcast_wire_MissionRecord& record : Elements(wire.missions)) {

@@ -413,12 +413,14 @@ Result<void> With(const MissionReply& message, const UseSample& use) {
     Lend(of_this, wire.answers);
     wire.given_unix_ms = given.given_unix_ms;
   }
+  TextArrays arrays;
   trailcast_wire_MissionReply sample{};
   sample.server = Lend(message.server.value());
   sample.client = Lend(message.client.value());
   sample.request = message.request;
   Lend(missions, sample.missions);
   Lend(commands, sample.commands);
+  arrays.Lend(message.robots, sample.robots);
   sample.next = message.next;
   sample.error = Lend(message.error);
   return use(&sample);

@@ -292,6 +292,10 @@ Result<void> Check(const MissionReply& message) {
       if (auto ok = Check(answer); !ok) return ok;
     }
   }
+  if (auto ok = CheckCount("robots", message.robots.size(), kMaxRobotsTold); !ok) return ok;
+  for (const std::string& robot : message.robots) {
+    if (auto ok = CheckName("robot", robot); !ok) return ok;
+  }
   return CheckText("error", message.error, kMaxLineBytes);
 }
 

@@ -8,7 +8,8 @@
 
 #include "services/base/time.h"
 #include "services/base/unix_time.h"
-#include "services/fleet/draw.h"
+#include "services/exchange/bounds.h"
+#include "services/fleet/mission_question.h"
 #include "services/fleet/telling.h"
 #include "services/program/json.h"
 
@@ -20,41 +21,18 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kNowAgain{100};
 constexpr milliseconds kNowWait{20};
-constexpr milliseconds kAskServersAgain{500};
-// Of those that are sent somewhere, the newest.
-constexpr std::uint32_t kMissionsAsked = 100;
 
-// Which robots are on their way: whoever has just joined does not hear those that are silent.
-class WhoIsOnAMission {
- public:
-  WhoIsOnAMission(const AgentId& self, bool asks) : asks_(asks) {
-    request_.client = self;
-    request_.request = DrawNumber();
-    request_.query.page_size = kMissionsAsked;
-    for (std::uint8_t i = 0; i < mission::kStates; ++i) {
-      const bool has_ended = mission::HasEnded(static_cast<mission::State>(i));
-      request_.query.states |= has_ended ? 0U : 1U << i;
-    }
+// Whoever has just joined does not hear robots that are silent, but servers know which are on their
+// way.
+exchange::MissionRequest WhoIsOnAMission(const AgentId& self) {
+  exchange::MissionRequest request{.client = self};
+  request.query.page_size = exchange::kMaxMissionsPerReply;
+  for (std::uint8_t i = 0; i < mission::kStates; ++i) {
+    const bool has_ended = mission::HasEnded(static_cast<mission::State>(i));
+    request.query.states |= has_ended ? 0U : 1U << i;
   }
-
-  void Ask(exchange::RouteExchange& exchange, steady_clock::time_point now) {
-    if (!asks_ || now < ask_at_) return;
-    ask_at_ = now + kAskServersAgain;
-    (void)exchange.Publish(request_);  // asked again until it is answered
-  }
-  void Hear(const exchange::Message& message, Telling& telling) {
-    const auto* reply = std::get_if<exchange::MissionReply>(&message);
-    if (reply == nullptr || reply->client != request_.client) return;
-    if (reply->request != request_.request) return;
-    asks_ = false;
-    for (const mission::Record& record : reply->missions) telling.Expect(record);
-  }
-
- private:
-  bool asks_;
-  exchange::MissionRequest request_;
-  steady_clock::time_point ask_at_{};
-};
+  return request;
+}
 
 }  // namespace
 
@@ -63,7 +41,8 @@ Result<std::vector<RobotsWord>> TellRobots(exchange::RouteExchange& exchange, co
                                            const std::vector<NowTarget>& targets,
                                            const std::string& reason, milliseconds timeout) {
   Telling telling(self, order, targets, reason);
-  WhoIsOnAMission on_mission(self, !telling.only_named());
+  MissionQuestion on_mission(WhoIsOnAMission(self));
+  bool asks = !telling.only_named();
   const auto began = steady_clock::now();
   auto say_at = began;
   while (true) {
@@ -79,10 +58,13 @@ Result<std::vector<RobotsWord>> TellRobots(exchange::RouteExchange& exchange, co
         }
       }
     }
-    on_mission.Ask(exchange, now);
+    if (asks) on_mission.Ask(exchange, now);
     for (const exchange::Message& message : exchange.Take(kNowWait)) {
       telling.Hear(message);
-      on_mission.Hear(message, telling);
+      const exchange::MissionReply* answer = on_mission.AnswerIn(message);
+      if (answer == nullptr) continue;
+      asks = false;
+      for (const mission::Record& record : answer->missions) telling.Expect(record);
     }
   }
   auto words = telling.Words();

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <variant>
 
-#include "services/base/similar_names.h"
 #include "services/base/time.h"
 
 namespace trailcast::fleet {
@@ -21,19 +20,6 @@ constexpr milliseconds kAgain{200};
 constexpr milliseconds kAgainWatched{2000};
 
 }  // namespace
-
-Error UnknownRobot(const std::string& name, std::vector<std::string> robots) {
-  return {
-      ErrorCode::kNotFound,
-      fmt::format("no robot '{}' is known: neither is one heard, nor has a server ever heard of "
-                  "it{}",
-                  name, DidYouMean(name, std::move(robots)))};
-}
-
-bool HasTakenAny(const std::vector<mission::Record>& missions) {
-  return std::any_of(missions.begin(), missions.end(),
-                     [](const mission::Record& record) { return record.last.change > 0; });
-}
 
 bool Sending::Hear(const exchange::Message& message) {
   const auto* report = std::get_if<mission::Report>(&message);

@@ -2,9 +2,12 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <utility>
+#include <variant>
 
 #include "services/base/time.h"
-#include "services/fleet/draw.h"
+#include "services/exchange/bounds.h"
+#include "services/fleet/mission_question.h"
 #include "services/fleet/operator_peer.h"
 #include "services/fleet/robots_there.h"
 #include "services/program/json.h"
@@ -13,9 +16,6 @@
 
 namespace trailcast::tool {
 namespace {
-
-constexpr std::uint32_t kMissionsAsked = 100;
-constexpr std::chrono::milliseconds kAskServersAgain{500};
 
 constexpr const char* kFleetExamples =
     "Examples:\n"
@@ -39,19 +39,15 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const FleetOp
                 .read = {exchange::Topic::kAgents, exchange::Topic::kMissionReplies}});
   if (!peer) return program::Complain(app, peer.error());
   fleet::RobotsThere robots;
-  exchange::MissionRequest newest{.client = peer->self, .request = fleet::DrawNumber()};
-  newest.query.page_size = kMissionsAsked;
-  auto ask_at = std::chrono::steady_clock::now();
+  exchange::MissionRequest newest{.client = peer->self};
+  newest.query.page_size = exchange::kMaxMissionsPerReply;
+  fleet::MissionQuestion question(std::move(newest));
   const auto until = std::chrono::steady_clock::now() + ToMilliseconds(options.listen_s);
   while (std::chrono::steady_clock::now() < until && !program::StopSignal::requested()) {
-    // It asks again for a server that was not found before.
-    if (std::chrono::steady_clock::now() >= ask_at) {
-      (void)peer->exchange->Publish(newest);
-      ask_at += kAskServersAgain;
-    }
+    question.Ask(*peer->exchange, std::chrono::steady_clock::now());
     for (const exchange::Message& message : peer->exchange->Take(std::chrono::milliseconds(100))) {
-      const auto* reply = std::get_if<exchange::MissionReply>(&message);
-      if (reply == nullptr || reply->client == peer->self) robots.Hear(message);
+      const bool is_reply = std::holds_alternative<exchange::MissionReply>(message);
+      if (!is_reply || question.AnswerIn(message) != nullptr) robots.Hear(message);
     }
   }
   std::fputs((options.json ? program::Indented(robots.Json()) : robots.Text()).c_str(), stdout);

@@ -6,15 +6,14 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include "services/base/time.h"
 #include "services/base/unix_time.h"
 #include "services/fleet/draw.h"
+#include "services/fleet/known_robot.h"
 #include "services/fleet/mission_client.h"
 #include "services/fleet/network_client.h"
 #include "services/fleet/operator_peer.h"
-#include "services/fleet/sending.h"
 #include "services/mission/orders.h"
 #include "services/network/words.h"
 #include "services/program/json.h"
@@ -43,8 +42,9 @@ struct SendOptions {
   double timeout_s = 5.0;
 };
 
-// After this time a program that has just joined has usually heard of all agents.
-constexpr std::chrono::milliseconds kAllAreHeard{1500};
+// Robots say every second that they are there, so that this program, or a server that has started
+// at the same time, has heard of all of them by then.
+constexpr std::chrono::milliseconds kAllAreHeard{3000};
 
 constexpr const char* kSendExamples =
     "Orders, one after the other:\n"
@@ -81,37 +81,6 @@ constexpr const char* kSendExamples =
     "Exit status: 0 taken, or kept by a server (with --wait: arrived); 1 refused, put off "
     "by servers, nobody\nanswered, or no such robot is known (with --wait: not arrived); 2 wrong "
     "usage, also of orders.";
-
-// Returns nothing if the robot is heard, or a server has heard of it, and nothing if no robot is
-// heard at all, as in a star.
-std::optional<Error> Unknown(fleet::OperatorPeer& peer, const std::string& robot) {
-  using std::chrono::steady_clock;
-  exchange::MissionRequest question{.client = peer.self, .request = fleet::DrawNumber()};
-  question.query.agent = robot;
-  std::set<std::string> robots;
-  bool asked_in_vain = false;
-  const auto until = steady_clock::now() + kAllAreHeard;
-  auto ask_at = steady_clock::now();
-  while (steady_clock::now() < until) {
-    if (steady_clock::now() >= ask_at) {
-      ask_at += kAllAreHeard / 3;
-      (void)peer.exchange->Publish(question);
-    }
-    for (const exchange::Message& message : peer.exchange->Take(std::chrono::milliseconds(20))) {
-      const auto* status = std::get_if<exchange::AgentStatus>(&message);
-      if (status != nullptr && status->role == exchange::AgentRole::kFollower) {
-        if (status->agent.value() == robot) return std::nullopt;
-        robots.insert(status->agent.value());
-      }
-      const auto* reply = std::get_if<exchange::MissionReply>(&message);
-      if (reply == nullptr || reply->client != peer.self) continue;
-      if (fleet::HasTakenAny(reply->missions)) return std::nullopt;
-      asked_in_vain = true;
-    }
-  }
-  if (robots.empty() || !asked_in_vain) return std::nullopt;
-  return fleet::UnknownRobot(robot, {robots.begin(), robots.end()});
-}
 
 // Returns the place to go to, if the robot is sent to one.
 Result<std::optional<std::string>> GoalOf(const SendOptions& options) {
@@ -167,7 +136,9 @@ int Send(const CLI::App& app, const program::CommonOptions& common, const SendOp
   if (*goal) and_also(exchange::NetworkTopics());
   auto peer = fleet::JoinAsOperator(common, use);
   if (!peer) return program::Complain(app, peer.error());
-  if (const auto unknown = options.unheard ? std::nullopt : Unknown(*peer, options.robot)) {
+  if (const auto unknown = options.unheard ? std::nullopt
+                                           : fleet::FindUnknown(*peer->exchange, peer->self,
+                                                                options.robot, kAllAreHeard)) {
     return program::Complain(app,
                              {unknown->code, unknown->message + "; --unheard has a server keep "
                                                                 "it all the same"});

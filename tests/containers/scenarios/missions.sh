@@ -4,7 +4,7 @@
 scenario_missions() {
   local told
   start_server_with_route
-  told=$(operate send robot1 follow hall --id trip) || fail "nobody keeps the mission: $told"
+  told=$(operate send robot1 follow hall --id trip --unheard) || fail "nobody keeps the mission: $told"
   [[ $told == *'a server keeps it'* ]] || fail "the server does not say that it keeps it: $told"
   kill_server
   start_robot robot1 wide serve --name robot1

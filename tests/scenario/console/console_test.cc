@@ -96,8 +96,12 @@ TEST_F(ConsoleTest, WhatIsWrongIsSaidAndWhoFallsSilentStaysListed) {
   const Replied nobody = Post("/api/robots/robot7/missions", {{"orders", "follow hall"}});
   EXPECT_EQ(nobody.status, 404) << nobody.body.dump();
   EXPECT_THAT(nobody.body["error"].get<std::string>(), HasSubstr("did you mean 'robot1'?"));
-  // The command meets the server alone, which keeps it for a robot that may be out of reach.
-  const Ended sent = End(*Start("trailcast", {"send", "robot7", "follow", "hall"}, "send-nobody"));
+  // The command meets the server alone.
+  const Words to_nobody{"send", "robot7", "follow", "hall"};
+  const Ended refused = End(*Start("trailcast", to_nobody, "send-nobody"));
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.output, HasSubstr("did you mean 'robot1'?"));
+  const Ended sent = End(*Start("trailcast", With(to_nobody, {"--unheard"}), "send-unheard"));
   EXPECT_EQ(sent.status, 0) << sent.output;
   EXPECT_THAT(sent.output,
               HasSubstr("a server keeps it, and hands it over once the robot is heard"));

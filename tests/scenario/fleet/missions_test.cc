@@ -111,10 +111,15 @@ TEST_F(MissionsTest, APausedMissionGoesOnAndNothingMovesByItselfAfterARestart) {
 
 TEST_F(MissionsTest, ARobotThatIsOutOfReachGetsItsMissionWhenItIsBack) {
   most_mps_ = kUnwatched_mps;
-  const Ended kept = Send({"follow", "hall", "--id", "later"});
+  const Ended unknown = Send({"follow", "hall", "--id", "later"});
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_THAT(unknown.output,
+              AllOf(HasSubstr("no robot 'robot1' is known"), HasSubstr("--unheard")));
+  const Ended kept = Send({"follow", "hall", "--id", "later", "--unheard"});
   EXPECT_EQ(kept.status, 0) << kept.output;
   EXPECT_THAT(kept.output, HasSubstr("a server keeps it"));
-  const Ended expired = Send({"follow", "hall", "--id", "never", "--valid", "1s", "--wait"});
+  const Ended expired =
+      Send({"follow", "hall", "--id", "never", "--valid", "1s", "--unheard", "--wait"});
   EXPECT_EQ(expired.status, 1) << expired.output;
   EXPECT_THAT(expired.output, HasSubstr("robot1: expired"));
   GoOnDuty();

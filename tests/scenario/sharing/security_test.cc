@@ -77,8 +77,9 @@ TEST_F(SecurityTest, EachRoleIsToldWhatItsKeysDoNotAllow) {
 
 TEST_F(SecurityTest, AnOperatorSendsAndAnObserverSeesWhatBecomesOfIt) {
   const auto server = SecuredServer();
-  const Ended sent = RunAs(operator_keys_, "trailcast",
-                           {"send", "robot7", "follow", "hall", "--id", "trip", "--timeout", "20"});
+  const Ended sent =
+      RunAs(operator_keys_, "trailcast",
+            {"send", "robot7", "follow", "hall", "--id", "trip", "--unheard", "--timeout", "20"});
   EXPECT_EQ(sent.status, 0) << sent.output;
   EXPECT_THAT(sent.output, HasSubstr("a server keeps it"));
   const Ended seen = RunAs(observer_keys_, "trailcast", {"missions", "--timeout", "20"});

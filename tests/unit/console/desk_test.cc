@@ -212,7 +212,7 @@ TEST_F(DeskTest, ARobotThatNobodyHasHeardOfIsSentNowhere) {
 TEST_F(DeskTest, AMissionThatAServerPutsOffIsSentAgain) {
   const auto server = bus_.Open(exchange::ServerTopics());
   auto sent = std::async(std::launch::async, [&] {
-    return desk_.Send({.agent = AgentId("robot1"), .id = "trip", .orders = "wait 1"});
+    return desk_.Send({.agent = AgentId("robot1"), .id = "trip", .orders = "wait 1"}, true);
   });
   int times = 0;
   test::Await(

@@ -18,6 +18,7 @@ using mission::Report;
 using mission::State;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -281,6 +282,23 @@ TEST_F(MissionBoardTest, KeepsWhoToldRobotsWhatAndWhatTheyAnswered) {
   EXPECT_EQ(reply.commands[0].command.client, AgentId("desk-p9"));
   ASSERT_THAT(reply.commands[0].answers, SizeIs(1));
   EXPECT_EQ(reply.commands[0].answers[0].detail, "stands");
+}
+
+TEST_F(MissionBoardTest, TellsWhetherItHasHeardARobotAndElseWhichOthers) {
+  const auto heard = [&](const std::string& robot) {
+    Hear(exchange::MissionRequest{
+        .client = AgentId("desk"), .request = 8, .query = {.agent = robot}});
+    const auto said = Say();
+    return said.size() == 1 ? std::get<exchange::MissionReply>(said[0]).robots
+                            : std::vector<std::string>{"no reply"};
+  };
+  EXPECT_THAT(heard("robot1"), IsEmpty());
+  RobotIsThere(1);
+  EXPECT_THAT(heard("robot1"), ElementsAre("robot1"));
+  EXPECT_THAT(heard("robto1"), ElementsAre("robot1"));
+  EXPECT_THAT(heard(""), IsEmpty()) << "that is asked for each page of the history";
+  Hear(exchange::AgentGone{AgentId("robot1"), 1});
+  EXPECT_THAT(heard("robot1"), ElementsAre("robot1")) << "it is out of reach";
 }
 
 TEST_F(MissionBoardTest, RefusesOrdersThatNobodyUnderstands) {
