@@ -82,9 +82,10 @@ endfunction()
 # The cases of a unit test's program run in one process, since under sanitizers most take longer to
 # start than to run; where that takes a minute, SHARDS of them run side by side. With TOGETHER other
 # cases are one as well, since they share what is slow to come by.
-# ALONE: nothing runs beside them, since they measure time; REAL_TIME: no other such, since their
-# robots keep pace with the clock; WAITS: it mostly waits, and takes half as much of a machine as
-# others, of which each counts for two of the tests that ./run test has at a time.
+# ALONE: nothing runs beside them, since they measure time; REAL_TIME: their robots keep pace with the
+# clock, and they begin first, so that others fill the cores that are left; WAITS: it mostly waits, and
+# takes half as much of a machine as others, of which each counts for two of the tests that ./run test
+# has at a time.
 # LONG: cases, as GoogleTest filters them, that drive simulated robots for long: they are labelled
 # `trial`, which ./run trials runs.
 # Sources are compiled together or APART as a library's are.
@@ -147,7 +148,7 @@ function(trailcast_test name)
   endif()
   set(beside RUN_SERIAL ${ARG_ALONE})
   if(ARG_REAL_TIME)
-    set(beside RESOURCE_LOCK real_time COST 1000) # begun first, so that others fill the other cores
+    set(beside COST 1000)
   endif()
   gtest_discover_tests(${name} TEST_FILTER "-${long}" ${discovery}
                        PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} PROCESSORS ${takes} ${beside})
