@@ -82,10 +82,10 @@ endfunction()
 # The cases of a unit test's program run in one process, since under sanitizers most take longer to
 # start than to run; where that takes a minute, SHARDS of them run side by side. With TOGETHER other
 # cases are one as well, since they share what is slow to come by.
-# ALONE: nothing runs beside them, since they measure time; REAL_TIME: their robots keep pace with the
-# clock, and they begin first, so that others fill the cores that are left; WAITS: it mostly waits, and
-# takes half as much of a machine as others, of which each counts for two of the tests that ./run test
-# has at a time.
+# ./run test has ten places for tests on two cores, and a test takes four of them. ALONE: nothing runs
+# beside them, since they measure time; REAL_TIME: their robots keep pace with the clock, so that they
+# take two fifths of a core and three places, and they begin first, so that others fill what is left;
+# WAITS: it mostly waits, and takes one place.
 # LONG: cases, as GoogleTest filters them, that drive simulated robots for long: they are labelled
 # `trial`, which ./run trials runs.
 # Sources are compiled together or APART as a library's are.
@@ -119,8 +119,10 @@ function(trailcast_test name)
     gtest_discover_tests(${name} TEST_FILTER "${long}" ${discovery}
                          PROPERTIES LABELS trial TIMEOUT ${ARG_TIMEOUT})
   endif()
-  set(takes 2)
-  if(ARG_WAITS)
+  set(takes 4)
+  if(ARG_REAL_TIME)
+    set(takes 3)
+  elseif(ARG_WAITS)
     set(takes 1)
   endif()
   if(ARG_LABEL STREQUAL unit)
