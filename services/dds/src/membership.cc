@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "services/dds/src/domain/cyclone_uri.h"
+#include "services/dds/src/domain/discovery_config.h"
 #include "services/dds/src/domain/interfaces.h"
 #include "services/dds/src/senders.h"
 
