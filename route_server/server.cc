@@ -133,6 +133,17 @@ void Server::KeepWays() {
   if (!missions_ || !network_) return;
   replanning_.emplace(*missions_, *network_);
   lanes_.emplace(*missions_, *network_);
+  missions_->PlanBy([this](const AgentId& agent, const std::string& goal) -> Result<bool> {
+    const auto* stand = network_->StandOf(agent);
+    if (stand == nullptr) {
+      return Fail(ErrorCode::kNotFound,
+                  "{} has not said where on a route it stands since this server was started",
+                  agent.value());
+    }
+    const auto way = network_->WayOn(stand->place, goal);
+    if (!way) return tl::unexpected(way.error());
+    return !way->empty();
+  });
   for (const std::string& line : lanes_->LookAtAll(steady_clock::now())) spdlog::info("{}", line);
 }
 
@@ -152,7 +163,8 @@ void Server::Receive(exchange::Message message) {
   const bool passed_on = PassOn(message);
   if (missions_) {
     const auto now = steady_clock::now();
-    // A stop voids the missions that were sent before it, including those that wait for their turn.
+    // A command means the missions that were sent before it, including those that wait for their
+    // turn.
     if (std::holds_alternative<exchange::NowCommand>(message)) {
       missions_->Take(requests_.TakeMissions(), now, NowUnixMs());
     }
@@ -417,6 +429,7 @@ void Server::ShowStatus(exchange::AgentMode mode, const std::string& detail) {
   exchange::AgentStatus status;
   status.mode = mode;
   status.detail = detail;
+  status.on_duty = missions_ != nullptr;
   presence_.Set(std::move(status));
 }
 

@@ -13,6 +13,7 @@
 #include "services/base/ids.h"
 #include "services/base/result.h"
 #include "services/exchange/messages.h"
+#include "services/exchange/servers_there.h"
 #include "services/mission/orders.h"
 
 namespace trailcast::agent {
@@ -20,13 +21,17 @@ namespace trailcast::agent {
 // Handles the missions that this robot is sent. It takes one at a time, once however often it
 // comes, and reports its state until a server has that. It corrects a server that has a mission in
 // another state. A mission that this robot does not know has failed. Everything is in a file, so
-// that neither is forgotten however the agent ends. It has no clock of its own.
+// that neither is forgotten however the agent ends. Where a server keeps missions in queues, this
+// robot takes one when that server hands it over. It has no clock of its own.
 class MissionDesk {
  public:
   using Time = std::chrono::steady_clock::time_point;
   // The last so many are remembered. One that was sent before these, and comes again, is taken for
   // a new one.
   static constexpr std::size_t kMostKept = 64;
+  // A mission that came this often, while no server has said that it keeps it, is taken without
+  // one.
+  static constexpr int kSentInVain = 10;
 
   MissionDesk(AgentId self, std::filesystem::path file)
       : self_(std::move(self)), file_(std::move(file)) {}
@@ -77,6 +82,8 @@ class MissionDesk {
   };
 
   void Take(const mission::Mission& mission);
+  // Says whether a server is to hand the mission over when its turn has come.
+  [[nodiscard]] bool IsServers(const mission::Mission& mission);
   void Amend(Kept& kept, const mission::Mission& mission);
   void Compare(const mission::Report& report);
   [[nodiscard]] Kept* Find(const std::string& id);
@@ -95,6 +102,9 @@ class MissionDesk {
   // The final reports on missions that servers take to be under way here, but that this robot does
   // not know.
   std::map<std::string, mission::Report> unknown_;
+  exchange::ServersThere keepers_;  // the servers that keep missions
+  // How often each mission came that no server has said it keeps, by its id.
+  std::map<std::string, int> unkept_;
   Time again_at_{};
   std::vector<std::string> news_;
 };

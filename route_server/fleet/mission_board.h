@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -23,9 +24,15 @@ namespace trailcast::server {
 // Makes the report with which a server answers a mission that it does not take now.
 [[nodiscard]] mission::Report PutOff(const mission::Mission& mission, const std::string& why);
 
-// Keeps operators' missions for robots. It stores a mission before it says so, hands it over once
-// it hears the robot, and remembers the outcome. It also stores operators' immediate commands and
-// the robots' answers. It has no clock of its own.
+// Keeps operators' missions for robots. It stores a mission before it says so, and remembers the
+// outcome. It also stores operators' immediate commands and the robots' answers. It has no clock of
+// its own.
+//
+// The missions of one robot are a queue. The oldest is handed over once the robot is heard, has no
+// other mission, and is not held by an operator. The queue goes on by itself only after a mission
+// that has arrived, because what comes next may begin where the one before was to end. After any
+// other end, and after a stop, it is held until the robot is told to resume, also over a restart of
+// this server, and even if the robot never heard of the stop.
 class MissionBoard {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -57,6 +64,10 @@ class MissionBoard {
   // known here.
   [[nodiscard]] const mission::Record* CurrentOf(const AgentId& agent) const;
   [[nodiscard]] std::vector<AgentId> AtWork() const;
+  // Tells whether a path leads from where a robot stands to a goal; false means that the robot is
+  // there already. It is asked when a mission to a place is handed over that has waited for others.
+  using CheckWay = std::function<Result<bool>(const AgentId& agent, const std::string& goal)>;
+  void PlanBy(CheckWay check_way) { check_way_ = std::move(check_way); }
   // Sends a robot another path (mission::Going). It is on the disk when this returns, and is
   // repeated as long as the mission lasts.
   [[nodiscard]] Result<void> Amend(const AgentId& agent, const std::string& orders);
@@ -74,21 +85,49 @@ class MissionBoard {
   void On(const exchange::NowAnswer& answer);
   void On(const exchange::AgentStatus& status, Time now);
   void On(const exchange::AgentGone& gone);
+  [[nodiscard]] Result<void> LoadQueues();
   [[nodiscard]] Result<void> LoadCurrent();
   void NoteCurrent(const mission::Report& report);
+  // Notes a report on a mission that no operator sent over this server.
+  void NoteOther(const mission::Report& report);
   // Asks robots that are met whether they still do the missions that are taken to be under way.
   void Agree(Time now);
   void Keep(const mission::Mission& mission, mission::Record stored);
   // Drops, in one commit, the missions that no robot has answered and for which `why` gives a
   // reason. `expires` is by the time that passes here, however the server's clock is set meanwhile;
-  // it is empty until the mission was first looked at.
+  // it is empty until the mission was first looked at. `since_unix_ms` is when its robot could have
+  // taken it for the first time.
   struct Waiting : mission::Record {
-    explicit Waiting(mission::Record record) : mission::Record(std::move(record)) {}
+    explicit Waiting(mission::Record record)
+        : mission::Record(std::move(record)), since_unix_ms(sent_unix_ms) {}
+    std::int64_t since_unix_ms;
     std::optional<Time> expires{};
+    mission::Report told{};  // the last report on what it waits for
+    bool is_asked = false;   // its sender is to hear that report
   };
+  using Queue = std::deque<Waiting>;
   using Why = std::function<std::optional<std::string>(const Waiting&)>;
   void Drop(mission::State state, const Why& why, std::int64_t now_unix_ms);
   void Expire(Time now, std::int64_t now_unix_ms);
+  // Returns for what the first mission of a robot's queue waits, in words, or an empty text.
+  [[nodiscard]] std::string WhyNotNow(const AgentId& agent) const;
+  // Makes the report on a mission that waits, behind `before` if that is not null.
+  [[nodiscard]] mission::Report Waits(const Waiting& record, const Waiting* before) const;
+  void TellQueues();
+  // Holds a robot's queue, or lets it go; it is on the disk when this returns.
+  void Hold(const AgentId& agent, const std::string& why, std::int64_t now_unix_ms);
+  void LetGo(const AgentId& agent, std::int64_t now_unix_ms);
+  void HoldAfter(const mission::Report& end, std::int64_t now_unix_ms);
+  // Returns why a robot's queue is held, or an empty text.
+  [[nodiscard]] std::string HeldBy(const AgentId& agent) const;
+  void HoldOrLetGo(const exchange::NowCommand& command, std::int64_t now_unix_ms);
+  // Tells whether a command means a robot by one of its missions here.
+  [[nodiscard]] bool IsMeant(const exchange::NowCommand& command, const AgentId& agent) const;
+  // Gives a mission to a place that has waited for others the path from where its robot stands by
+  // now. Returns false if it has ended instead.
+  [[nodiscard]] bool PlanAnew(const Waiting& record, std::int64_t now_unix_ms);
+  void NoteWaited(Waiting& record);
+  void HandOver(Time now, std::int64_t now_unix_ms);
   void Say(mission::Report report);
   void Warn(const Error& error) { notes_.push_back({error.message, true}); }
   // Notes whether storing worked.
@@ -99,8 +138,11 @@ class MissionBoard {
 
   AgentId server_;
   std::unique_ptr<store::MissionStore> store_;
-  // Each robot's missions, the oldest first, which is the one it is told of.
-  std::map<AgentId, std::deque<Waiting>> unanswered_;
+  // Each robot's missions that it has not answered, the oldest first.
+  std::map<AgentId, Queue> unanswered_;
+  // Why queues are held, or an empty text for those that were let go.
+  std::map<AgentId, std::string> holds_;
+  std::set<AgentId> changed_;  // the robots of whose queues there may be news
   struct Current {
     mission::Record record{};
     Time tell_at{};  // for a second or later path
@@ -117,6 +159,8 @@ class MissionBoard {
     std::chrono::milliseconds pause{};  // the next pause before it is told again
     Time agree_at{};
     std::chrono::milliseconds agree_pause{};  // likewise
+    exchange::AgentHold hold = exchange::AgentHold::kNone;
+    std::string hold_text{};  // in the robot's words
   };
   NewestMap<AgentId, Heard> heard_{kMostAgents};
   Time expire_at_{};
@@ -124,6 +168,7 @@ class MissionBoard {
   using NowKey = std::pair<AgentId, std::uint64_t>;
   NewestMap<NowKey, bool> commands_{kMostAgents};
   NewestMap<std::pair<AgentId, NowKey>, bool> answers_{kMostAgents};
+  CheckWay check_way_;
   // Missions that cannot be stored are repeated, too.
   ToldLately told_{std::chrono::milliseconds(60'000)};
   std::vector<exchange::Message> outgoing_;

@@ -144,8 +144,10 @@ class FleetState {
   void AddCauses(const Agent& agent, const Standing& standing, const Alerts& open,
                  std::vector<Cause>& causes) const;
   [[nodiscard]] static Standing StandingOf(const Agent& agent, const mission::Record* latest);
-  [[nodiscard]] nlohmann::ordered_json RobotOf(const Agent& agent,
-                                               const mission::Record* latest) const;
+  [[nodiscard]] nlohmann::ordered_json RobotOf(const Agent& agent, const mission::Record* latest,
+                                               const std::vector<mission::Record>& queue) const;
+  // Returns the missions that wait for each robot, the next first.
+  [[nodiscard]] std::map<AgentId, std::vector<mission::Record>> Queues() const;
   [[nodiscard]] nlohmann::ordered_json MissionsShown() const;
 
   AgentId self_;

@@ -221,7 +221,8 @@ struct AgentStatus {
   std::vector<route::RouteKey> held{};  // revisions that are whole in its store, the newest first
   std::optional<PlaceOnRoute> place{};  // a follower's, once it has found its place on its route
   AgentHold hold = AgentHold::kNone;
-  bool on_duty = false;                           // it is available for missions
+  // It is available for missions; a server keeps them in queues.
+  bool on_duty = false;
   std::optional<std::uint8_t> battery_percent{};  // if the robot reports it
   std::optional<std::uint8_t> link_percent{};     // of its radio, if the robot reports it
   std::string software{};                         // its version, for people

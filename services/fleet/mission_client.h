@@ -37,6 +37,10 @@ struct SendWatch {
     exchange::RouteExchange& exchange, const AgentId& client, mission::Query query,
     std::size_t limit, std::chrono::milliseconds timeout);
 
+// Sorts missions, the newest first, by robot: its present mission, and then those that wait for it,
+// in the order of its queue.
+void SortAsQueues(std::vector<mission::Record>& missions);
+
 // "robot1: under way: ..", without what there is not to say.
 [[nodiscard]] std::string ReportText(const mission::Report& report);
 // Objects for programs, without line breaks.

@@ -21,8 +21,8 @@ class Sending {
   // Whether that was news of it.
   bool Hear(const exchange::Message& message);
   // It is known what becomes of it at first: the robot does it or has refused it, or has taken it
-  // and not refused it for a while, or did not answer while a server keeps it, or neither within
-  // `timeout`.
+  // and not refused it for a while, or did not answer while a server keeps it, or waits in its
+  // queue at a server, or neither within `timeout`.
   [[nodiscard]] bool Answered(std::chrono::milliseconds since,
                               std::chrono::milliseconds timeout) const;
   // How long to wait before it is said again: what was lost is said soon, and while it is watched a

@@ -39,10 +39,13 @@ class Telling {
   [[nodiscard]] bool IsNamed(const std::string& robot) const;
   [[nodiscard]] bool IsMeant(const exchange::AgentStatus& status) const;
 
+  exchange::NowOrder order_;
   std::vector<NowTarget> targets_;
   std::vector<exchange::NowCommand> commands_;
   std::map<std::string, RobotsWord> words_;
   std::set<std::string> names_;
+  // The missions in each robot's queue that servers have cancelled for this command.
+  std::map<std::string, std::set<std::string>> dropped_;
 };
 
 }  // namespace trailcast::fleet

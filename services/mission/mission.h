@@ -44,11 +44,13 @@ inline constexpr std::uint8_t kStates = 10;  // those that a mission is kept in
 [[nodiscard]] const char* ToString(State state);  // "under way"
 [[nodiscard]] bool HasEnded(State state);
 
-// A robot that cannot go on by itself says what it stands and waits for.
+// A robot that cannot go on by itself says what it stands and waits for. A server says it of a
+// mission that it keeps.
 enum class WaitsFor : std::uint8_t {
   kNothing = 0,
   kWay = 1,   // off the way that it was sent last, or at its end: to be told another from there
   kLane = 2,  // before a narrow place: to be let in
+  kTurn = 3,  // in its robot's queue: `detail` says for what
 };
 
 // trailcast/mission_states: from the robot, said again until a server has said the same (relayed):
@@ -68,7 +70,8 @@ struct Report {
 };
 
 // Whether `report` is the later one of the same mission. What a server says itself (change 0)
-// counts until the robot's word does, and that a mission ends there is later than that it is kept.
+// counts until the robot's word does. That a mission ends there is later than that it is kept, and
+// of two words on what it waits for there, the last to come is the later one.
 [[nodiscard]] bool IsNewer(const Report& report, const Report& last);
 
 // Empty fields do not narrow it down.

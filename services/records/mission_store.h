@@ -48,6 +48,17 @@ class MissionStore {
   // Returns the missions that no robot has answered and no server has dropped, the oldest first.
   [[nodiscard]] Result<std::vector<mission::Record>> Unanswered();
 
+  // A robot's queue of missions is held, for a reason, or was let go, which is without one.
+  struct Hold {
+    AgentId agent{};
+    std::string why{};
+    std::int64_t unix_ms = 0;  // when it was held or let go
+    bool operator==(const Hold&) const = default;
+  };
+  [[nodiscard]] Result<void> Put(const Hold& hold);
+  [[nodiscard]] Result<void> ForgetHold(const AgentId& agent);
+  [[nodiscard]] Result<std::vector<Hold>> Holds();
+
   struct Page {
     std::vector<mission::Record> missions{};  // the newest first
     std::uint64_t next = 0;  // mission::Query::before for the next page; 0 after the last

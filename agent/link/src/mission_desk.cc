@@ -134,6 +134,11 @@ MissionDesk::Kept& MissionDesk::CurrentKept() { return *Find(current_->mission.i
 void MissionDesk::Handle(const exchange::Message& message) {
   if (const auto* mission = std::get_if<mission::Mission>(&message)) {
     if (mission->agent == self_) Take(*mission);
+  } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+    const bool has_ended = status->mode == exchange::AgentMode::kStopped;
+    if (status->on_duty || has_ended) keepers_.Handle(message);
+  } else if (std::holds_alternative<exchange::AgentGone>(message)) {
+    keepers_.Handle(message);
   } else if (const auto* report = std::get_if<mission::Report>(&message)) {
     if (report->agent == self_ && report->relayed) Compare(*report);
   }
@@ -158,16 +163,26 @@ void MissionDesk::Answer(Kept& kept, State state, const std::string& detail,
                               kept.last.detail));
 }
 
+bool MissionDesk::IsServers(const mission::Mission& mission) {
+  if (mission.relayed || keepers_.empty()) return false;
+  if (unkept_.size() >= kMostKept && !unkept_.contains(mission.id)) return true;
+  return ++unkept_[mission.id] < kSentInVain;
+}
+
 void MissionDesk::Take(const mission::Mission& mission) {
   if (Kept* known = Find(mission.id)) {
     if (mission.relayed && current_ && current_->mission.id == mission.id) Amend(*known, mission);
     known->due = true;  // its sender has not heard the answer
     return;
   }
+  if (IsServers(mission)) return;
+  // A server that does not know yet what this robot does hands its mission over again later.
+  if (mission.relayed && current_) return;
   // A second or later path is for a robot that has begun. A robot that forgot its mission must not
   // move on it.
   const auto going = mission::GoingIn(mission.orders);
   if (going && going->way > 1) return;
+  unkept_.erase(mission.id);
   // The missions that ended first are dropped first; the current one stays.
   if (kept_.size() >= kMostKept) {
     kept_.erase(std::find_if(kept_.begin(), kept_.end(),
@@ -216,6 +231,11 @@ void MissionDesk::GoOnAt(std::uint32_t task) {
 }
 
 void MissionDesk::Compare(const mission::Report& report) {
+  if (report.state == State::kPutOff) return;
+  if (const auto unkept = unkept_.find(report.mission); unkept != unkept_.end()) {
+    unkept->second = 0;
+    if (mission::HasEnded(report.state)) unkept_.erase(unkept);
+  }
   // Every later report has to be newer than that.
   const bool can_be_newer = report.change < std::numeric_limits<std::uint32_t>::max();
   Kept* kept = Find(report.mission);

@@ -46,6 +46,7 @@ export type Robot = {
   teaches: boolean;
   features: number;
   mission: Mission | null;
+  queue: Mission[];  // what it is to do after that, the next first
   unanswered_stop_unix_ms: number | null;  // since when it is told to stop and does not answer
   orders: Order[];
 };
@@ -242,11 +243,20 @@ export async function send(robot: string, orders: string): Promise<Answer> {
     const { status, json } = await post(`/api/robots/${robot}/missions`, { orders });
     if (json.error) return { ok: false, text: json.error };
     const kept = json.state === 'sent';
-    const text = kept ? 'A server keeps it until the robot is heard.' : `${json.state} ${json.detail}`;
+    const text = kept ? `Queued${json.detail ? `: ${json.detail}` : ', until the robot is heard'}.` : `${json.state} ${json.detail}`;
     return { ok: status === 200, text };
   } catch {
     return unreachable;
   }
+}
+
+// Sends a mission's orders again; to a place, by the best path from where the robot stands now.
+export async function sendAgain({ robot, orders }: Mission): Promise<Answer> {
+  const [first, to] = orders.split(' ');
+  if (first !== 'goto') return send(robot, orders);
+  const way = await get<Way>('/api/network/way', { from: robot, to });
+  if (typeof way === 'string') return { ok: false, text: way };
+  return way.orders ? send(robot, way.orders) : { ok: true, text: `${robot} is there already.` };
 }
 
 // A page of what servers keep; `next` 0 on the last.

@@ -24,7 +24,8 @@ using program::Json;
 using program::Rounded;
 
 // What an operator's word would change.
-Json OrdersFor(RobotState state, const AgentStatus& status, bool has_mission, bool open_stop) {
+Json OrdersFor(RobotState state, const AgentStatus& status, bool has_mission, bool open_stop,
+               const std::vector<mission::Record>& queue) {
   Json orders = Json::array();
   if (status.role != AgentRole::kFollower) return orders;
   if (state == RobotState::kStopped || open_stop) {
@@ -34,8 +35,12 @@ Json OrdersFor(RobotState state, const AgentStatus& status, bool has_mission, bo
   } else if (state != RobotState::kShutDown) {
     orders.push_back("pause");
   }
+  const bool is_held = state == RobotState::kStopped || state == RobotState::kPaused || open_stop;
+  const bool queue_is_held = !has_mission && !is_held && !queue.empty() &&
+                             queue.front().last.waits_for == mission::WaitsFor::kTurn;
+  if (queue_is_held && state != RobotState::kShutDown) orders.push_back("resume");
   if (status.on_duty && status.mode == AgentMode::kTeaching) orders.push_back("end");
-  if (has_mission) orders.push_back("cancel");
+  if (has_mission || !queue.empty()) orders.push_back("cancel");
   if (state != RobotState::kShutDown) orders.push_back("stop");
   return orders;
 }
@@ -303,7 +308,8 @@ FleetState::Standing FleetState::StandingOf(const Agent& agent, const mission::R
   return standing;
 }
 
-Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest) const {
+Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest,
+                         const std::vector<mission::Record>& queue) const {
   const AgentStatus& status = agent.status;
   const auto [state, needs_person, mission, last] = StandingOf(agent, latest);
   Json robot{{"name", status.agent.value()},
@@ -335,7 +341,7 @@ Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest) cons
              {"unanswered_stop_unix_ms",
               agent.open_stop ? Json(agent.open_stop->since_unix_ms) : Json(nullptr)},
              {"orders", OrdersFor(fleet::RobotStateOf(status, false, last), status,
-                                  mission != nullptr, agent.open_stop.has_value())}};
+                                  mission != nullptr, agent.open_stop.has_value(), queue)}};
   if (status.place) {
     robot["route_id"] = status.place->key.route.value();
     robot["teaching"] = fmt::format("{:x}", status.place->key.teaching.value());
@@ -358,7 +364,21 @@ Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest) cons
                       {"along_m", Rounded(place.along_m, 100.0)}};
   }
   robot["mission"] = mission == nullptr ? Json(nullptr) : fleet::MissionJson(*mission);
+  robot["queue"] = fleet::MissionsJson(queue);
   return robot;
+}
+
+std::map<AgentId, std::vector<mission::Record>> FleetState::Queues() const {
+  std::map<AgentId, std::vector<mission::Record>> queues;
+  for (const auto& [name, record] : missions_) {
+    if (record.last.state == mission::State::kSent) queues[name.first].push_back(record);
+  }
+  for (auto& [robot, queue] : queues) {
+    std::stable_sort(queue.begin(), queue.end(), [](const auto& one, const auto& other) {
+      return one.sent_unix_ms < other.sent_unix_ms;
+    });
+  }
+  return queues;
 }
 
 bool FleetState::Teaches(const AgentId& robot) const {
@@ -381,6 +401,7 @@ Json FleetState::MissionsShown() const {
 
 Json FleetState::Shown() const {
   const Latest latest = LatestMissions();
+  std::map<AgentId, std::vector<mission::Record>> queues = Queues();
   std::map<AgentId, Json> robots;
   std::map<AgentId, Json> servers;
   for (const auto& [name, agent] : agents_) {
@@ -393,7 +414,8 @@ Json FleetState::Shown() const {
           {"detail", agent.status.detail}};
     } else if (agent.status.role != AgentRole::kOperator) {
       const auto mission = latest.find(name);
-      robots[name] = RobotOf(agent, mission == latest.end() ? nullptr : mission->second);
+      robots[name] =
+          RobotOf(agent, mission == latest.end() ? nullptr : mission->second, queues[name]);
     }
   }
   const auto listed = [](std::map<AgentId, Json>& agents) {

@@ -57,8 +57,9 @@ TopicUse OperatorTopics() {
 }
 
 TopicUse DispatcherTopics() {
-  return {.write = {Topic::kNow, Topic::kMissionRequests},
-          .read = {Topic::kNowAnswers, Topic::kMissionReplies, Topic::kAgents}};
+  return {
+      .write = {Topic::kNow, Topic::kMissionRequests},
+      .read = {Topic::kNowAnswers, Topic::kMissionReplies, Topic::kMissionStates, Topic::kAgents}};
 }
 
 TopicUse ReplayTopics() {

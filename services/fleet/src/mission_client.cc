@@ -91,10 +91,19 @@ Result<std::vector<mission::GivenCommand>> AskForCommands(exchange::RouteExchang
                    &exchange::MissionReply::commands, limit, timeout);
 }
 
+void SortAsQueues(std::vector<mission::Record>& missions) {
+  std::reverse(missions.begin(), missions.end());
+  const auto place = [](const mission::Record& record) {
+    return std::pair(record.mission.agent, record.last.state == mission::State::kSent);
+  };
+  std::stable_sort(missions.begin(), missions.end(),
+                   [&](const auto& one, const auto& other) { return place(one) < place(other); });
+}
+
 std::string ReportText(const mission::Report& report) {
   if (report.state == mission::State::kSent) {
-    return fmt::format("{}: sent: a server keeps it, and hands it over once the robot is heard",
-                       report.agent.value());
+    return fmt::format("{}: sent: a server keeps it, and hands it over in its turn{}{}",
+                       report.agent.value(), report.detail.empty() ? "" : "; ", report.detail);
   }
   return fmt::format("{}: {}{}{}", report.agent.value(), mission::ToString(report.state),
                      report.detail.empty() ? "" : ": ", report.detail);

@@ -40,7 +40,8 @@ bool Sending::Answered(milliseconds since, milliseconds timeout) const {
   if (!last_) return since > timeout;
   switch (last_->state) {
     case mission::State::kSent:
-      return since > std::min(kRobotAnswers, timeout);
+      return last_->waits_for == mission::WaitsFor::kTurn ||
+             since > std::min(kRobotAnswers, timeout);
     case mission::State::kAccepted:
       return since > std::min(kRobotDecides, timeout);
     case mission::State::kFetching:

@@ -1,5 +1,7 @@
 #include "services/fleet/telling.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -17,6 +19,9 @@ using std::chrono::milliseconds;
 // Whoever joins has heard of all who are there by then, usually.
 constexpr milliseconds kAllAreHeard{1500};
 
+// A robot does not know that it has a queue, so a server's word on that may come after its own.
+constexpr milliseconds kServersHaveAnswered{1000};
+
 // Strangers can make names up.
 constexpr std::size_t kMostNames = 1024;
 
@@ -24,7 +29,7 @@ constexpr std::size_t kMostNames = 1024;
 
 Telling::Telling(const AgentId& self, exchange::NowOrder order, std::vector<NowTarget> targets,
                  const std::string& reason)
-    : targets_(std::move(targets)) {
+    : order_(order), targets_(std::move(targets)) {
   for (const NowTarget& target : targets_) {
     commands_.emplace_back(exchange::NowCommand{.client = self,
                                                 .number = DrawNumber(),
@@ -40,6 +45,12 @@ void Telling::Hear(const exchange::Message& message) {
   if (const auto* answer = std::get_if<exchange::NowAnswer>(&message)) {
     if (!Answers(*answer)) return;
     words_[answer->agent.value()] = {answer->agent.value(), true, answer->refused, answer->detail};
+  } else if (const auto* report = std::get_if<mission::Report>(&message)) {
+    const bool is_servers = report->relayed && report->change == 0;
+    if (order_ != exchange::NowOrder::kCancel || !is_servers) return;
+    if (report->state != mission::State::kCancelled) return;
+    std::set<std::string>& dropped = dropped_[report->agent.value()];
+    if (dropped.size() < kMostNames) dropped.insert(report->mission);
   } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     const bool ended = status->mode == exchange::AgentMode::kStopped;
     const std::string& robot = status->agent.value();
@@ -79,8 +90,12 @@ bool Telling::only_named() const {
 
 bool Telling::AllAnswered(milliseconds since) const {
   if (!only_named() && since < kAllAreHeard) return false;
-  return std::all_of(words_.begin(), words_.end(),
-                     [](const auto& each) { return each.second.answered; });
+  const bool may_have_queues =
+      order_ == exchange::NowOrder::kCancel && since < kServersHaveAnswered;
+  return std::all_of(words_.begin(), words_.end(), [&](const auto& each) {
+    const RobotsWord& word = each.second;
+    return word.answered && (!word.refused || !may_have_queues || dropped_.contains(word.robot));
+  });
 }
 
 std::vector<RobotsWord> Telling::Words() const {
@@ -88,6 +103,12 @@ std::vector<RobotsWord> Telling::Words() const {
   for (const auto& [name, word] : words_) {
     words.push_back(word);
     RobotsWord& last = words.back();
+    if (const auto dropped = dropped_.find(name); last.answered && dropped != dropped_.end()) {
+      const std::string queue = fmt::format("{} queued mission{} cancelled", dropped->second.size(),
+                                            dropped->second.size() == 1 ? "" : "s");
+      last.detail = last.refused ? queue : last.detail + "; " + queue;
+      last.refused = false;
+    }
     last.known = word.answered || names_.contains(name) || !word.detail.empty();
     if (last.known) continue;
     last.detail = "no robot of this name was heard" +

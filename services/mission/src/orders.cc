@@ -312,7 +312,9 @@ const char* ToString(State state) {
 
 bool IsNewer(const Report& report, const Report& last) {
   if (report.change != last.change) return report.change > last.change;
-  return report.change == 0 && last.state == State::kSent && report.state != State::kSent;
+  if (report.change != 0 || last.state != State::kSent) return false;
+  return report.state != State::kSent || report.waits_for != last.waits_for ||
+         report.detail != last.detail;
 }
 
 bool HasEnded(State state) {

@@ -65,7 +65,14 @@ CREATE TABLE answer (
 ) STRICT, WITHOUT ROWID;
 )",
                                .holds = "missions",
-                               .called = "mission store"};
+                               .called = "mission store",
+                               .added = R"(
+CREATE TABLE IF NOT EXISTS queue_hold (
+  agent TEXT PRIMARY KEY,
+  why TEXT NOT NULL,
+  at_unix_ms INTEGER NOT NULL
+) STRICT, WITHOUT ROWID;
+)"};
 
 constexpr const char* kColumns =
     "agent, id, client, orders, valid_for_s, goes_on, sent_unix_ms, change, state, task, way, "
@@ -92,7 +99,7 @@ mission::Record RecordIn(SQLite::Statement& row) {
       .task = small(9),
       .way = small(10),
       .waits_for = static_cast<mission::WaitsFor>(
-          std::min(small(11), static_cast<std::uint32_t>(mission::WaitsFor::kLane))),
+          std::min(small(11), static_cast<std::uint32_t>(mission::WaitsFor::kTurn))),
       .detail = row.getColumn(12).getString()};
   record.changed_unix_ms = row.getColumn(13).getInt64();
   return record;
@@ -102,6 +109,12 @@ mission::Record RecordIn(SQLite::Statement& row) {
 std::int64_t Before(const mission::Query& query) {
   const auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
   return static_cast<std::int64_t>(query.before == 0 ? most : std::min(query.before, most));
+}
+
+MissionStore::Hold HoldIn(SQLite::Statement& row) {
+  return {.agent = AgentId(row.getColumn(0).getString()),
+          .why = row.getColumn(1).getString(),
+          .unix_ms = row.getColumn(2).getInt64()};
 }
 
 mission::GivenCommand CommandIn(SQLite::Statement& row) {
@@ -296,6 +309,26 @@ Result<std::vector<mission::Record>> MissionStore::Unanswered() {
       "reading missions",
       std::string("SELECT ") + kColumns + " FROM mission WHERE state = 0 ORDER BY number",
       RecordIn);
+}
+
+Result<void> MissionStore::Put(const Hold& hold) {
+  return database_->Guarded("storing that a queue is held", [&]() -> Result<void> {
+    database_->Run("INSERT OR REPLACE INTO queue_hold (agent, why, at_unix_ms) VALUES (?1, ?2, ?3)",
+                   hold.agent.value(), hold.why, hold.unix_ms);
+    return {};
+  });
+}
+
+Result<void> MissionStore::ForgetHold(const AgentId& agent) {
+  return database_->Guarded("forgetting that a queue was held", [&]() -> Result<void> {
+    database_->Run("DELETE FROM queue_hold WHERE agent = ?1", agent.value());
+    return {};
+  });
+}
+
+Result<std::vector<MissionStore::Hold>> MissionStore::Holds() {
+  return database_->Read("reading which queues are held",
+                         "SELECT agent, why, at_unix_ms FROM queue_hold", HoldIn);
 }
 
 Result<MissionStore::Page> MissionStore::Find(const mission::Query& query) {

@@ -36,6 +36,7 @@ OwnDatabase::OwnDatabase(std::filesystem::path file, const OwnFile& what)
     db.exec("PRAGMA user_version = " + std::to_string(own.version));
     db.exec(own.tables);
   }
+  db.exec(own.added);
   transaction.commit();
 }
 

@@ -22,6 +22,9 @@ struct OwnFile {
   const char* tables = "";
   const char* holds = "";   // "missions"
   const char* called = "";  // "mission store", for errors
+  // Tables of later programs that earlier ones can do without. They are made wherever they are
+  // missing, and do not raise the version.
+  const char* added = "";
 };
 
 // An open file of that kind.

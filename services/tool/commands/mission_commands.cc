@@ -32,6 +32,7 @@ constexpr std::chrono::milliseconds kLookAgain{1000};
 struct SendOptions {
   std::string robot;
   std::vector<std::string> orders;
+  std::string again;
   std::string id;
   std::string from;  // where `goto` begins; empty for where the robot stands
   double valid_s = 600.0;
@@ -76,11 +77,34 @@ constexpr const char* kSendExamples =
     "  trailcast send robot1 follow hall --valid 2h  # however late it is back by then\n"
     "  trailcast send robot1 goto office@8           # round what is closed, or refused\n"
     "  trailcast send robot1 goto loading-bay\n"
-    "A server keeps what a robot cannot hear yet. A robot does one mission at a time; 'trailcast\n"
-    "cancel robot1' ends it, and 'trailcast stop robot1' has it stand at once.\n"
+    "  trailcast send robot1 --again 4f2a09c1d3e5b687  # what failed, once more\n"
+    "A robot does one mission at a time. A server keeps the others in a queue, and what a robot\n"
+    "cannot hear yet; 'trailcast missions --open' shows them. The queue goes on by itself after a\n"
+    "mission that arrived, and after any other once the robot is told to resume. 'trailcast "
+    "cancel\n"
+    "robot1' ends its mission and the queue; 'trailcast stop robot1' has it stand at once, and\n"
+    "holds the queue until it is released and told to resume. Without a server, a robot that has "
+    "a\n"
+    "mission refuses another.\n"
     "Exit status: 0 taken, or kept by a server (with --wait: arrived); 1 refused, put off "
     "by servers, nobody\nanswered, or no such robot is known (with --wait: not arrived); 2 wrong "
     "usage, also of orders.";
+
+// Fills in the orders of the mission of that id, the newest of several.
+Result<void> TakeOrders(fleet::OperatorPeer& peer, SendOptions& options) {
+  const auto found = fleet::AskForMissions(*peer.exchange, peer.self, {.id = options.again}, 1,
+                                           ToMilliseconds(options.timeout_s));
+  if (!found) return tl::unexpected(found.error());
+  if (found->empty()) {
+    return Fail(ErrorCode::kNotFound,
+                "no server keeps a mission '{}': 'trailcast missions' lists what there is",
+                options.again);
+  }
+  const std::string& orders = found->front().mission.orders;
+  const auto going = mission::GoingIn(orders);
+  options.orders = going ? std::vector<std::string>{"goto", going->to} : std::vector{orders};
+  return {};
+}
 
 // Returns the place to go to, if the robot is sent to one.
 Result<std::optional<std::string>> GoalOf(const SendOptions& options) {
@@ -115,16 +139,23 @@ Result<std::string> OrdersTo(const std::string& goal, const fleet::OperatorPeer&
   return fleet::OrdersAlong(*way, goal);
 }
 
-int Send(const CLI::App& app, const program::CommonOptions& common, const SendOptions& options) {
+// Checks the orders as far as that is possible without a server.
+Result<void> CheckOrders(const SendOptions& options) {
+  if (options.orders.empty() == options.again.empty()) {
+    return Fail(ErrorCode::kInvalidArgument, "either ORDERS or --again MISSION is needed");
+  }
+  if (!options.again.empty()) return {};
   const auto goal = GoalOf(options);
-  if (!goal) return ComplainOfUsage(app, goal.error());
-  mission::Mission mission{.agent = AgentId(options.robot),
-                           .id = options.id.empty() ? fleet::DrawMissionId() : options.id,
-                           .orders = fmt::format("{}", fmt::join(options.orders, " ")),
-                           .valid_for_s = static_cast<std::uint32_t>(options.valid_s),
-                           .goes_on = options.goes_on};
-  if (const auto tasks = mission::ParseOrders(mission.orders); !*goal && !tasks) {
-    return ComplainOfUsage(app, tasks.error());
+  if (!goal) return tl::unexpected(goal.error());
+  if (*goal) return {};
+  const auto tasks = mission::ParseOrders(fmt::format("{}", fmt::join(options.orders, " ")));
+  if (!tasks) return tl::unexpected(tasks.error());
+  return {};
+}
+
+int Send(const CLI::App& app, const program::CommonOptions& common, SendOptions options) {
+  if (const auto understood = CheckOrders(options); !understood) {
+    return ComplainOfUsage(app, understood.error());
   }
   const program::StopSignal stop;
   exchange::TopicUse use = exchange::SenderTopics();
@@ -133,7 +164,8 @@ int Send(const CLI::App& app, const program::CommonOptions& common, const SendOp
     use.read.insert(use.read.end(), more.read.begin(), more.read.end());
   };
   and_also(exchange::HistoryTopics());
-  if (*goal) and_also(exchange::NetworkTopics());
+  const bool goes_to_a_place = !options.orders.empty() && options.orders.front() == "goto";
+  if (goes_to_a_place || !options.again.empty()) and_also(exchange::NetworkTopics());
   auto peer = fleet::JoinAsOperator(common, use);
   if (!peer) return program::Complain(app, peer.error());
   if (const auto unknown = options.unheard ? std::nullopt
@@ -143,7 +175,19 @@ int Send(const CLI::App& app, const program::CommonOptions& common, const SendOp
                              {unknown->code, unknown->message + "; --unheard has a server keep "
                                                                 "it all the same"});
   }
-  mission.client = peer->self;
+  if (!options.again.empty()) {
+    if (const auto taken = TakeOrders(*peer, options); !taken) {
+      return program::Complain(app, taken.error());
+    }
+  }
+  const auto goal = GoalOf(options);
+  if (!goal) return program::Complain(app, goal.error());
+  mission::Mission mission{.agent = AgentId(options.robot),
+                           .id = options.id.empty() ? fleet::DrawMissionId() : options.id,
+                           .client = peer->self,
+                           .orders = fmt::format("{}", fmt::join(options.orders, " ")),
+                           .valid_for_s = static_cast<std::uint32_t>(options.valid_s),
+                           .goes_on = options.goes_on};
   if (*goal) {
     auto orders = OrdersTo(**goal, *peer, options);
     if (!orders) return program::Complain(app, orders.error());
@@ -176,6 +220,7 @@ struct MissionsOptions {
   double newer_than_s = 0.0;
   std::size_t limit = 50;
   bool commands = false;
+  bool open = false;
   bool watch = false;
   bool json = false;
   double timeout_s = 5.0;
@@ -185,6 +230,7 @@ constexpr const char* kMissionsExamples =
     "Examples:\n"
     "  trailcast missions                          # the newest first\n"
     "  trailcast missions --robot robot1 --watch   # and again whenever something has changed\n"
+    "  trailcast missions --open                   # each robot's queue, in its order\n"
     "  trailcast missions --commands               # who told whom to pause, stop, .. and when\n"
     "  trailcast missions --route hall --state failed --newer-than 7d --json";
 
@@ -207,6 +253,9 @@ mission::Query QueryOf(const MissionsOptions& options) {
   mission::Query query = options.query;
   for (const std::string& state : options.states) {
     query.states |= 1U << static_cast<unsigned>(States().at(state));
+  }
+  for (std::uint8_t i = 0; options.open && i < mission::kStates; ++i) {
+    if (!mission::HasEnded(static_cast<State>(i))) query.states |= 1U << i;
   }
   if (options.newer_than_s > 0.0) {
     query.from_unix_ms = NowUnixMs() - static_cast<std::int64_t>(1e3 * options.newer_than_s);
@@ -232,9 +281,10 @@ Result<Listing> Look(fleet::OperatorPeer& peer, const MissionsOptions& options) 
     if (!commands) return tl::unexpected(commands.error());
     return listed(*commands, fleet::CommandsTable, fleet::CommandsJson);
   }
-  const auto missions =
+  auto missions =
       fleet::AskForMissions(*peer.exchange, peer.self, QueryOf(options), options.limit, timeout);
   if (!missions) return tl::unexpected(missions.error());
+  if (options.open) fleet::SortAsQueues(*missions);
   return listed(*missions, fleet::MissionsTable, fleet::MissionsJson);
 }
 
@@ -267,7 +317,12 @@ Command AddSend(CLI::App& parent, const program::CommonOptions& common) {
   app->add_option("ROBOT", options->robot, "Its name, as --name of 'trailcast-agent serve'")
       ->required()
       ->check(program::NameValidator());
-  app->add_option("ORDERS", options->orders, "What it is to do: see below")->required();
+  auto* orders = app->add_option("ORDERS", options->orders, "What it is to do: see below");
+  app->add_option("--again", options->again,
+                  "In place of ORDERS: those of this mission, which 'trailcast missions' lists, of "
+                  "any robot; to a place, by the best path from where this robot stands")
+      ->check(program::NameValidator())
+      ->excludes(orders);
   app->add_option("--id", options->id,
                   "The mission's name, by which it is done once however often it is sent; default: "
                   "drawn")
@@ -309,10 +364,12 @@ Command AddMissions(CLI::App& parent, const program::CommonOptions& common) {
   name("--sent-by", options->query.client, "Only sent by this operator");
   std::vector<std::string> states;
   for (const auto& [state, value] : States()) states.push_back(state);
-  app->add_option("--state", options->states, "Only these; several: any of them")
-      ->check(CLI::IsMember(states))
-      ->take_all()
-      ->allow_extra_args(false);
+  auto* state = app->add_option("--state", options->states, "Only these; several: any of them");
+  state->check(CLI::IsMember(states))->take_all()->allow_extra_args(false);
+  app->add_flag("--open", options->open,
+                "Only those that have not ended: each robot's mission, and then its queue, in its "
+                "order, with what each waits for")
+      ->excludes(state);
   app->add_option("--newer-than", options->newer_than_s, "Only sent since: 90min, 12h, 7d; 0: any")
       ->transform(TimeSpan("AGE"));
   app->add_option("--limit", options->limit, "Missions to list at most")

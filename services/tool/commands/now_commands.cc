@@ -94,8 +94,10 @@ Command AddOne(CLI::App& parent, const program::CommonOptions& common, NowOrder 
 
 std::vector<Command> AddNowCommands(CLI::App& parent, const program::CommonOptions& common) {
   return {AddOne(parent, common, NowOrder::kPause, "Have robots stand where they are"),
-          AddOne(parent, common, NowOrder::kResume, "Have paused robots go on"),
-          AddOne(parent, common, NowOrder::kCancel, "Have robots end what they do"),
+          AddOne(parent, common, NowOrder::kResume,
+                 "Have paused robots go on, and queues that are held"),
+          AddOne(parent, common, NowOrder::kCancel,
+                 "Have robots end what they do, and what is queued for them"),
           AddOne(parent, common, NowOrder::kStop,
                  "Have robots stand, also after a restart, until they are released"),
           AddOne(parent, common, NowOrder::kRelease,

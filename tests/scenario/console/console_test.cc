@@ -103,8 +103,9 @@ TEST_F(ConsoleTest, WhatIsWrongIsSaidAndWhoFallsSilentStaysListed) {
   EXPECT_THAT(refused.output, HasSubstr("did you mean 'robot1'?"));
   const Ended sent = End(*Start("trailcast", With(to_nobody, {"--unheard"}), "send-unheard"));
   EXPECT_EQ(sent.status, 0) << sent.output;
-  EXPECT_THAT(sent.output,
-              HasSubstr("a server keeps it, and hands it over once the robot is heard"));
+  EXPECT_THAT(
+      sent.output,
+      HasSubstr("a server keeps it, and hands it over in its turn; waits: it is not heard"));
   EXPECT_EQ(Post("/api/robots/robot1/dance").status, 404);
   EXPECT_EQ(Post("/api/robots/robot1/missions", {{"orders", "wait 600"}, {"id", "long"}}).status,
             200);
@@ -197,6 +198,35 @@ TEST_F(ConsoleTest, TheExampleSendsARobotAndWaitsUntilItHasArrived) {
   EXPECT_EQ(sent.status, 0) << sent.output << agent_->output();
   EXPECT_THAT(sent.output, HasSubstr("robot1: arrived"));
   EXPECT_NEAR(Along_m("truth.csv"), 4.5, 0.25);
+}
+
+TEST_F(ConsoleTest, APersonQueuesAMissionSeesWhatItWaitsForAndResumesTheQueueInABrowser) {
+  if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(390, 844);
+  browser.Open(Page());
+  ASSERT_TRUE(browser.WaitForText("Available")) << browser.Text();
+  ASSERT_EQ(Post("/api/robots/robot1/missions", {{"orders", "wait 600"}, {"id", "now"}}).status,
+            200);
+  ASSERT_TRUE(WaitUntil([&] { return Robot1()["mission"].is_object(); })) << State().dump(2);
+  ASSERT_TRUE(browser.Click("//button[contains(., 'Queue')]")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Slide to send robot1 along hall")) << browser.Text();
+  ASSERT_TRUE(browser.Type("//input[@type='range']", kSlide));
+  ASSERT_TRUE(browser.WaitForText("waits: it does mission now: wait 600")) << browser.Text();
+  EXPECT_EQ(Robot1()["queue"].size(), 1U);
+  browser.Screenshot(Shot("phone-queue"));
+
+  agent_->Signal(SIGKILL);
+  (void)End(*agent_);
+  std::filesystem::remove(Path("routes.db.robot1.missions"));
+  agent_ = Serve("robot1", "duty-without-missions");
+  ASSERT_TRUE(browser.WaitForText("mission now did not arrive (failed)")) << browser.Text();
+  ASSERT_TRUE(browser.Click("//article//button[. = 'Resume']")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Driving")) << browser.Text() << agent_->output();
+  EXPECT_EQ(Robot1()["queue"].size(), 0U);
+  ASSERT_TRUE(browser.Click("//article//button[. = 'Cancel mission']")) << browser.Text();
+  ASSERT_TRUE(WaitUntil([&] { return Robot1()["mission"].is_null(); })) << State().dump(2);
 }
 
 TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {

@@ -61,15 +61,15 @@ TEST_F(MissionsTest, ARobotOnDutyFollowsWhatItIsSentAlong) {
   EXPECT_EQ(End(*agent_).status, 0) << agent_->output();
 }
 
-TEST_F(MissionsTest, ASecondOneAndOnesThatCannotBeDoneAreRefusedInWords) {
+TEST_F(MissionsTest, ASecondOneQueuesAndOnesThatCannotBeDoneAreRefusedInWords) {
   GoOnDuty();
   const Ended unknown = Send({"follow", "attic", "--wait"});
   EXPECT_EQ(unknown.status, 1) << unknown.output;
   EXPECT_THAT(unknown.output, AllOf(HasSubstr("robot1: refused"), HasSubstr("attic")));
   EXPECT_EQ(Send({"wait", "600", "--id", "long"}).status, 0);
-  const Ended busy = Send({"follow", "hall"});
-  EXPECT_EQ(busy.status, 1) << busy.output;
-  EXPECT_THAT(busy.output, HasSubstr("busy with mission long: wait 600"));
+  const Ended queued = Send({"follow", "hall", "..2", "--id", "next"});
+  EXPECT_EQ(queued.status, 0) << queued.output;
+  EXPECT_THAT(queued.output, HasSubstr("waits: it does mission long: wait 600"));
   const Ended cancelled = Tool({"cancel", "robot1"});
   EXPECT_EQ(cancelled.status, 0) << cancelled.output;
   EXPECT_TRUE(agent_->WaitForOutput("cancelled by an operator")) << agent_->output();
@@ -77,7 +77,56 @@ TEST_F(MissionsTest, ASecondOneAndOnesThatCannotBeDoneAreRefusedInWords) {
               AllOf(HasSubstr("long"), Not(HasSubstr("attic"))));
   EXPECT_THAT(Missions({"--commands"}).output, AllOf(HasSubstr("operator  cancel   robot1"),
                                                      HasSubstr("mission cancelled by operator")));
+  EXPECT_THAT(Missions({"--open"}).output, HasSubstr("no missions")) << "the queue, too";
   EXPECT_EQ(Send({"dance"}).status, 2);
+}
+
+TEST_F(MissionsTest, AQueueOutlastsTheServerIsHeldAfterAFailureAndAStopAndGoesOnWhenResumed) {
+  GoOnDuty();
+  ASSERT_EQ(Send({"wait", "600", "--id", "now"}).status, 0);
+  ASSERT_TRUE(agent_->WaitForOutput("mission now of operator")) << agent_->output();
+  for (const char* id : {"second", "third"}) {
+    const Ended queued =
+        Send({"follow", id == std::string("second") ? "attic" : "hall", "--id", id});
+    EXPECT_EQ(queued.status, 0) << queued.output;
+    EXPECT_THAT(queued.output, HasSubstr("waits: "));
+  }
+  server_->Signal(SIGKILL);
+  (void)End(*server_);
+  server_ = Server("server.db", "server2");
+  const auto open = [this](const std::string& text) {
+    return WaitUntil([&] { return Missions({"--open"}).output.find(text) != std::string::npos; });
+  };
+  ASSERT_TRUE(open("waits: mission second comes before: follow attic"))
+      << Missions({"--open"}).output;
+  ASSERT_TRUE(open("waits: it does mission now: wait 600")) << Missions({"--open"}).output;
+
+  // The work is ended without the queue: what comes next is told by the end of what is before it.
+  agent_->Signal(SIGKILL);
+  (void)End(*agent_);
+  std::filesystem::remove(Path("routes.db.robot1.missions"));
+  agent_ = Serve("robot1", "duty2");
+  ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+  ASSERT_TRUE(open("waits: mission now did not arrive (failed)")) << Missions({"--open"}).output;
+  EXPECT_EQ(Tool({"stop", "robot1"}).status, 0);
+  EXPECT_EQ(Tool({"release", "robot1"}).status, 0);
+  EXPECT_THAT(agent_->output(), Not(HasSubstr("mission second")));
+  EXPECT_EQ(Tool({"resume", "robot1"}).status, 0);
+  ASSERT_TRUE(open("waits: mission second did not arrive (refused)"))
+      << Missions({"--open"}).output;
+  EXPECT_EQ(Tool({"resume", "robot1"}).status, 0);
+  const Ended third = Send({"follow", "hall", "--id", "third", "--wait"});
+  EXPECT_EQ(third.status, 0) << third.output << agent_->output();
+  EXPECT_NEAR(Along_m("truth.csv"), 4.5, 0.25);
+
+  const Ended again = Send({"--again", "second", "--wait"});
+  EXPECT_EQ(again.status, 1) << again.output;
+  EXPECT_THAT(again.output, AllOf(HasSubstr("robot1: refused"), HasSubstr("attic")));
+  const Ended unknown = Send({"--again", "nothing"});
+  EXPECT_EQ(unknown.status, 1) << unknown.output;
+  EXPECT_THAT(unknown.output, HasSubstr("no server keeps a mission 'nothing'"));
+  EXPECT_EQ(Send({}).status, 2);
+  EXPECT_EQ(Send({"wait", "1", "--again", "second"}).status, 2);
 }
 
 TEST_F(MissionsTest, APausedMissionGoesOnAndNothingMovesByItselfAfterARestart) {

@@ -72,6 +72,40 @@ class FleetStateTest : public testing::Test {
   FleetState::Time now_{seconds(100)};
 };
 
+TEST_F(FleetStateTest, ARobotsQueueIsShownInOrderWithWhatEachWaitsFor) {
+  Hear(Status("robot1", AgentMode::kReplaying));
+  Hear(Kept(Report("m1", 2, State::kUnderWay), 500));
+  Hear(Kept(Report("m3", 0, State::kSent, "waits: mission m2 comes before"), 900));
+  Hear(Kept(Report("m2", 0, State::kSent, "waits: it does mission m1"), 700));
+  EXPECT_EQ(Robot()["mission"]["mission"], "m1");
+  ASSERT_EQ(Robot()["queue"].size(), 2U);
+  EXPECT_EQ(Robot()["queue"][0]["mission"], "m2");
+  EXPECT_EQ(Robot()["queue"][0]["detail"], "waits: it does mission m1");
+  EXPECT_EQ(Robot()["queue"][1]["mission"], "m3");
+  Hear(Report("m2", 0, State::kSent, "waits: stopped by desk"));
+  EXPECT_EQ(Robot()["queue"][0]["detail"], "waits: stopped by desk");
+  Hear(Report("m2", 1, State::kAccepted));
+  ASSERT_EQ(Robot()["queue"].size(), 1U);
+}
+
+TEST_F(FleetStateTest, AQueueThatIsHeldWhileItsRobotHasNoMissionMayBeResumedOrCancelled) {
+  Hear(Status("robot1", AgentMode::kReplaying));
+  Hear(Kept(Report("m1", 2, State::kUnderWay), 500));
+  auto held = Report("m2", 0, State::kSent, "waits: it does mission m1");
+  held.waits_for = mission::WaitsFor::kTurn;
+  Hear(Kept(held, 700));
+  EXPECT_EQ(Robot()["orders"], json({"pause", "cancel", "stop"}));
+  Hear(Status("robot1", AgentMode::kWaiting));
+  Hear(Report("m1", 3, State::kFailed));
+  held.detail = "waits: mission m1 did not arrive (failed): resume the robot to go on, or cancel";
+  Hear(held);
+  EXPECT_EQ(Robot()["orders"], json({"pause", "resume", "cancel", "stop"}));
+  held.detail.clear();
+  held.waits_for = mission::WaitsFor::kNothing;
+  Hear(held);
+  EXPECT_EQ(Robot()["orders"], json({"pause", "cancel", "stop"})) << "it is being handed over";
+}
+
 TEST_F(FleetStateTest, SaysInAWordHowARobotIsAndWhichOrdersWouldChangeThat) {
   EXPECT_EQ(StateOf(AgentMode::kReplaying), "driving");
   EXPECT_EQ(Robot()["orders"], json({"pause", "stop"}));

@@ -130,6 +130,38 @@ TEST_F(NowClientTest, OfAllItNamesWhoIsSilentAndOnAMissionByAServer) {
   EXPECT_THAT(WordsText(*on_yard), testing::Not(HasSubstr("robot2"))) << "it is on hall";
 }
 
+TEST(Telling, ACancellationAlsoTellsWhatServersHaveDroppedFromQueues) {
+  Telling telling(AgentId("desk"), NowOrder::kCancel,
+                  {{NowWhom::kRobot, "robot1"}, {NowWhom::kRobot, "robot2"}}, "");
+  const auto answer = [&](std::size_t which, bool refused, const std::string& detail) {
+    const exchange::NowCommand& command = telling.commands()[which];
+    telling.Hear(exchange::NowAnswer{.agent = AgentId(command.name),
+                                     .client = command.client,
+                                     .number = command.number,
+                                     .refused = refused,
+                                     .detail = detail});
+  };
+  const auto dropped = [&](const std::string& robot, const std::string& id) {
+    telling.Hear(mission::Report{.agent = AgentId(robot),
+                                 .mission = id,
+                                 .state = mission::State::kCancelled,
+                                 .relayed = true});
+  };
+  answer(0, true, "has no mission to cancel");
+  answer(1, false, "mission cancelled");
+  EXPECT_FALSE(telling.AllAnswered(milliseconds(500))) << "a server may have a queue";
+  EXPECT_TRUE(telling.AllAnswered(milliseconds(1500)));
+  EXPECT_EQ(ObeyedBy(telling.Words()), Obeyed::kNotByAll) << "there was none";
+  dropped("robot1", "m1");
+  dropped("robot1", "m1");
+  dropped("robot2", "m2");
+  dropped("robot2", "m3");
+  EXPECT_TRUE(telling.AllAnswered(milliseconds(500)));
+  EXPECT_EQ(ObeyedBy(telling.Words()), Obeyed::kByAll);
+  EXPECT_EQ(telling.Words()[0].detail, "1 queued mission cancelled");
+  EXPECT_EQ(telling.Words()[1].detail, "mission cancelled; 2 queued missions cancelled");
+}
+
 TEST(Telling, WhoIsHeardNoMoreMayBeMovingAndWhoHasEndedIsNot) {
   Telling telling(AgentId("desk"), NowOrder::kStop, {{NowWhom::kAll, ""}}, "");
   for (const char* name : {"ended", "killed"}) {

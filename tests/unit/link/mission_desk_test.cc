@@ -88,6 +88,56 @@ TEST_F(MissionDeskTest, RefusesASecondOneAndWhatItDoesNotUnderstand) {
   EXPECT_EQ(desk_->current()->mission.id, "m1");
 }
 
+TEST_F(MissionDeskTest, WhereAServerKeepsMissionsItTakesOneWhenThatHandsItOver) {
+  exchange::AgentStatus server;
+  server.agent = AgentId("server");
+  server.instance = 5;
+  server.role = exchange::AgentRole::kServer;
+  server.mode = exchange::AgentMode::kWaiting;
+  desk_->Handle(server);
+  EXPECT_EQ(Answer(For("m0", "wait 1")).state, State::kAccepted) << "that one keeps none";
+  desk_->Tell(State::kArrived);
+  (void)Due();
+  server.on_duty = true;
+  desk_->Handle(server);
+  Mission first = For("m1");
+  Mission second = For("m2", "follow yard");
+  for (Mission* mission : {&first, &second}) {
+    desk_->Handle(*mission);
+    EXPECT_THAT(Due(), IsEmpty());
+    mission->relayed = true;
+  }
+  EXPECT_EQ(Answer(first).state, State::kAccepted);
+  desk_->Handle(second);
+  EXPECT_THAT(Due(), IsEmpty()) << "it is handed over again";
+  desk_->Tell(State::kArrived);
+  (void)Due();
+  EXPECT_EQ(Answer(second).state, State::kAccepted);
+  desk_->Tell(State::kArrived);
+  (void)Due();
+  desk_->Handle(exchange::AgentGone{server.agent, server.instance});
+  EXPECT_EQ(Answer(For("m3")).state, State::kAccepted) << "there is no such server any more";
+}
+
+TEST_F(MissionDeskTest, TakesWithoutAServerWhatThatDoesNotKeep) {
+  exchange::AgentStatus server;
+  server.agent = AgentId("server");
+  server.role = exchange::AgentRole::kServer;
+  server.mode = exchange::AgentMode::kWaiting;
+  server.on_duty = true;
+  desk_->Handle(server);
+  for (int times = 1; times < MissionDesk::kSentInVain; ++times) {
+    desk_->Handle(For("m1"));
+    desk_->Handle(For("kept"));
+    ServerSays({.agent = AgentId("robot1"), .mission = "kept"});
+    ServerSays({.agent = AgentId("robot1"), .mission = "m1", .state = State::kPutOff});
+    EXPECT_THAT(Due(), IsEmpty());
+  }
+  desk_->Handle(For("kept"));
+  EXPECT_THAT(Due(), IsEmpty());
+  EXPECT_EQ(Answer(For("m1")).state, State::kAccepted);
+}
+
 TEST_F(MissionDeskTest, DoesItsTasksAndTheirLapsOneAfterTheOther) {
   (void)Answer(For("m1", "follow hall laps 2 wait 5"));
   EXPECT_EQ(desk_->current()->task, 0U);

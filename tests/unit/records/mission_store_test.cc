@@ -1,5 +1,6 @@
 #include "services/records/mission_store.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -294,6 +295,30 @@ TEST_F(MissionStoreTest, ForgetsInRunsThatAreShortToo) {
     (void)Change("robot1", id, 1, State::kArrived);
   }
   EXPECT_LE(Found({.page_size = 100}).size(), 51U);
+}
+
+TEST_F(MissionStoreTest, KeepsWhichQueuesAreHeldAndWhyOverARestart) {
+  using Hold = MissionStore::Hold;
+  ASSERT_TRUE(store_->Put(Hold{AgentId("robot1"), "stopped", 1000}));
+  ASSERT_TRUE(store_->Put(Hold{AgentId("robot2"), "stopped", 1000}));
+  ASSERT_TRUE(store_->Put(Hold{AgentId("robot1"), "", 2000}));
+  ASSERT_TRUE(store_->ForgetHold(AgentId("robot2")));
+  ASSERT_TRUE(store_->ForgetHold(AgentId("robot3")));
+  Reopen();
+  const auto holds = store_->Holds();
+  ASSERT_TRUE(holds) << holds.error().message;
+  EXPECT_THAT(*holds, ElementsAre(Hold{AgentId("robot1"), "", 2000}));
+}
+
+// As an earlier program has left it.
+TEST_F(MissionStoreTest, AFileWithoutHeldQueuesIsGivenThem) {
+  Add(For("robot1", "m1"));
+  store_.reset();
+  SQLite::Database((folder_ / "missions").string(), SQLite::OPEN_READWRITE)
+      .exec("DROP TABLE queue_hold");
+  Reopen();
+  EXPECT_TRUE(store_->Put(MissionStore::Hold{AgentId("robot1"), "stopped", 1000}));
+  EXPECT_THAT(Found({}), ElementsAre("m1"));
 }
 
 TEST_F(MissionStoreTest, IsOneProcessAlone) {

@@ -63,7 +63,9 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
   const obeys = mayOperate && robot.role === 'follower';
   const others = robot.orders.filter((each) => each !== 'stop' && !(robot.teaches && (each === 'end' || each === 'cancel')));
   const mission = robot.mission;
-  const maySend = !mission && !['driving', 'teaching', 'shut down'].includes(robot.state);
+  const queue = robot.queue;
+  const may = { send: robot.state !== 'shut down' && (mission !== null || robot.state !== 'driving'),
+    teach: !mission && queue.length === 0 && !['driving', 'teaching', 'shut down'].includes(robot.state) };
   const seesIt = robot.state !== 'shut down' && robot.heard;
   const mayDismiss = mayOperate && (!robot.heard || robot.state === 'shut down') && robot.unanswered_stop_unix_ms === null && lost_ms === null;
   return (
@@ -79,9 +81,9 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
         {obeys && others.map((each) => (
           <button key={each} onClick={() => order(each)}>{labels[each]}</button>
         ))}
-        {obeys && maySend && (['send', 'teach'] as const).map((each) => (
+        {obeys && (['send', 'teach'] as const).filter((each) => may[each]).map((each) => (
           <button key={each} aria-expanded={open === each} onClick={() => setOpen(open === each ? '' : each)}>
-            {each === 'send' ? 'Send …' : 'Teach …'}
+            {each === 'teach' ? 'Teach …' : mission || queue.length > 0 ? 'Queue …' : 'Send …'}
           </button>
         ))}
         {mayDismiss && (
@@ -96,8 +98,8 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
       <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>
-      {obeys && open === 'send' && maySend && <Send robot={robot.name} onAnswer={sent} />}
-      {obeys && open === 'teach' && maySend && <Teach robot={robot.name} onAnswer={sent} />}
+      {obeys && open === 'send' && may.send && <Send robot={robot.name} onAnswer={sent} />}
+      {obeys && open === 'teach' && may.teach && <Teach robot={robot.name} onAnswer={sent} />}
       {looking && seesIt && robot.teaches && <Glance robot={robot} brief />}
       {obeys && robot.teaches && seen_ms === null && <Teaching robot={robot} onAnswer={say} />}
       {robot.route && !robot.teaches && robot.route_id && <Strip robot={robot} />}
@@ -110,6 +112,11 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
           Mission of {mission.sent_by || 'somebody'}: {mission.orders || '(orders not told)'} – <strong>{mission.state}</strong>{' '}
           <Copy id={mission.mission} what="mission" />
         </p>
+      )}
+      {queue.length > 0 && (
+        <ol className="queue" aria-label="Queue">
+          {queue.map((each) => <li key={each.mission}>{each.orders} <span className="note">{each.detail}</span></li>)}
+        </ol>
       )}
       <Charts robot={robot} />
       <Vitals robot={robot} />

@@ -1,8 +1,10 @@
 import { useEffect, useState, type FormEvent } from 'react';
-import { get, type Command, type CommandPage, type Mission, type MissionPage } from '../api';
+import { get, sendAgain, type Answer, type Command, type CommandPage, type Mission, type MissionPage } from '../api';
 import { AlertHistory } from '../alerts/alerts';
 import { Copy } from '../copy';
 import { age, when } from '../fleet';
+import { useMay } from '../me';
+import { Slide } from '../robot/send';
 import { RunPage } from './run';
 import { RunList, RunsOf } from './run-list';
 
@@ -90,6 +92,8 @@ function Life({ mission }: { mission: Mission }) {
   });
   const { records, told, more } = useRecords('/api/commands', search, commandsOf, 'It was told nothing meanwhile.');
   const over = ['arrived', 'failed', 'cancelled', 'refused', 'expired'].includes(mission.state);
+  const mayOperate = useMay('operate');
+  const [answer, setAnswer] = useState<Answer | null>(null);
   const happened = [
     { unix_ms: mission.sent_unix_ms, text: `Sent by ${mission.sent_by || 'somebody'}: ${mission.orders || '(orders not told)'}` },
     ...records.map((each) => ({
@@ -107,6 +111,10 @@ function Life({ mission }: { mission: Mission }) {
         ))}
       </ol>
       {told}{more}
+      {mayOperate && over && mission.state !== 'arrived' && mission.orders && !answer && (
+        <Slide label={`Slide to send ${mission.robot} once more`} onDone={async () => setAnswer(await sendAgain(mission))} />
+      )}
+      <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>{answer && `${answer.ok ? '' : '⚠ '}${mission.robot}: ${answer.text}`}</p>
       <RunsOf mission={mission.mission} />
     </div>
   );

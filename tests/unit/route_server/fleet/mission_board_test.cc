@@ -61,8 +61,11 @@ class MissionBoardTest : public testing::Test {
     }
     return std::nullopt;
   }
-  void RobotIsThere(std::uint64_t instance = 1) {
+  void RobotIsThere(std::uint64_t instance = 1,
+                    exchange::AgentHold hold = exchange::AgentHold::kNone) {
     exchange::AgentStatus status;
+    status.hold = hold;
+    if (hold != exchange::AgentHold::kNone) status.detail = "held by desk";
     status.agent = AgentId("robot1");
     status.instance = instance;
     status.role = exchange::AgentRole::kFollower;
@@ -72,7 +75,21 @@ class MissionBoardTest : public testing::Test {
   void RobotSays(const std::string& id, std::uint32_t change, State state) {
     Hear(Report{.agent = AgentId("robot1"), .mission = id, .change = change, .state = state});
   }
-  State StateOf(const std::string& id) {
+  State StateOf(const std::string& id) { return LastOf(id).state; }
+  std::string WaitsFor(const std::string& id) {
+    const Report last = LastOf(id);
+    EXPECT_EQ(last.waits_for == mission::WaitsFor::kTurn, !last.detail.empty());
+    return last.detail;
+  }
+  void Tell(NowOrder order, NowWhom whom = NowWhom::kRobot, const std::string& name = "robot1") {
+    Hear(exchange::NowCommand{.client = AgentId("desk-p9"),
+                              .number = ++commands_,
+                              .order = order,
+                              .whom = whom,
+                              .name = name});
+  }
+  Report LastOf(const std::string& id) {
+    (void)Say();
     Hear(exchange::MissionRequest{.client = AgentId("desk"), .request = 7, .query = {.id = id}});
     for (const exchange::Message& message : Say()) {
       const auto* reply = std::get_if<exchange::MissionReply>(&message);
@@ -80,16 +97,17 @@ class MissionBoardTest : public testing::Test {
       EXPECT_EQ(reply->client, AgentId("desk"));
       EXPECT_EQ(reply->request, 7U);
       EXPECT_THAT(reply->missions, SizeIs(1));
-      return reply->missions.empty() ? State::kSent : reply->missions[0].last.state;
+      return reply->missions.empty() ? Report{} : reply->missions[0].last;
     }
     ADD_FAILURE() << "no reply";
-    return State::kSent;
+    return {};
   }
 
   test::TempDir folder_;
   std::chrono::steady_clock::time_point now_{};
   std::int64_t unix_ms_ = 1'700'000'000'000;
   std::unique_ptr<MissionBoard> board_;
+  std::uint64_t commands_ = 0;
 };
 
 TEST_F(MissionBoardTest, SaysThatItKeepsAMissionEachTimeThatItIsSent) {
@@ -139,13 +157,180 @@ TEST_F(MissionBoardTest, KeepsItOverARestart) {
   EXPECT_EQ(StateOf("m1"), State::kAccepted);
 }
 
-TEST_F(MissionBoardTest, OfSeveralTheOldestGoesFirst) {
+TEST_F(MissionBoardTest, ABusyRobotsMissionsQueueAndEachSaysWhatItWaitsFor) {
+  Hear(For("m1"));
+  Hear(For("m2", "follow yard"));
+  EXPECT_THAT(WaitsFor("m1"), HasSubstr("not heard"));
+  RobotIsThere();
+  EXPECT_EQ(HandedOver()->id, "m1");
+  EXPECT_EQ(WaitsFor("m1"), "");
+  EXPECT_THAT(WaitsFor("m2"), HasSubstr("mission m1 comes before: follow hall"));
+  RobotSays("m1", 1, State::kUnderWay);
+  EXPECT_THAT(WaitsFor("m2"), HasSubstr("it does mission m1: follow hall"));
+  EXPECT_FALSE(HandedOver());
+}
+
+TEST_F(MissionBoardTest, TheNextOneIsHandedOverAtOnceWhenTheOneBeforeHasArrived) {
   Hear(For("m1"));
   Hear(For("m2", "follow yard"));
   RobotIsThere();
+  RobotSays("m1", 1, State::kUnderWay);
+  for (int restarts = 0; restarts < 2; ++restarts) {
+    EXPECT_THAT(WaitsFor("m2"), HasSubstr("it does mission m1: follow hall"));
+    Pass(seconds(100));
+    EXPECT_FALSE(HandedOver()) << "nor has it expired: its robot is not out of reach";
+    Restart();
+    RobotIsThere(2);
+  }
+  RobotSays("m1", 2, State::kArrived);
+  const auto handed = HandedOver();
+  ASSERT_TRUE(handed);
+  EXPECT_EQ(handed->id, "m2");
+}
+
+// "follow yard" begins at the yard, where m1 was to end.
+TEST_F(MissionBoardTest, AQueueIsHeldAfterAMissionThatHasNotArrivedUntilItsRobotIsToldToResume) {
+  for (const State end : {State::kFailed, State::kRefused, State::kCancelled}) {
+    const std::string id = mission::ToString(end);
+    Hear(For(id));
+    Hear(For(id + "-next", "follow yard"));
+    Hear(For(id + "-last", "follow yard"));
+    RobotIsThere();
+    RobotSays(id, 1, State::kUnderWay);
+    RobotSays(id, 2, end);
+    for (int restarts = 0; restarts < 2; ++restarts) {
+      EXPECT_THAT(WaitsFor(id + "-next"),
+                  HasSubstr("mission " + id + " did not arrive (" + id + ")"));
+      EXPECT_THAT(WaitsFor(id + "-last"), HasSubstr("mission " + id + "-next comes before"));
+      Pass(seconds(100));
+      EXPECT_FALSE(HandedOver());
+      Restart();
+      RobotIsThere();
+    }
+    Tell(NowOrder::kResume, NowWhom::kRobot, "robot2");
+    EXPECT_FALSE(HandedOver());
+    Tell(NowOrder::kResume);
+    EXPECT_EQ(HandedOver()->id, id + "-next");
+    RobotSays(id, 2, end);
+    Restart();
+    RobotIsThere();
+    EXPECT_EQ(HandedOver()->id, id + "-next") << "an end that is repeated holds nothing anew";
+    RobotSays(id + "-next", 1, State::kArrived);
+    RobotSays(id + "-last", 1, State::kArrived);
+    (void)Say();
+  }
+}
+
+TEST_F(MissionBoardTest, AQueueIsHeldAfterOneThatExpired) {
+  Hear(For("m1"));
+  Mission later = For("m2", "follow yard");
+  later.valid_for_s = 600;
+  Hear(later);
+  (void)Say();
+  Pass(seconds(61));
+  EXPECT_EQ(StateOf("m1"), State::kExpired);
+  RobotIsThere();
+  EXPECT_FALSE(HandedOver());
+  EXPECT_THAT(WaitsFor("m2"), HasSubstr("mission m1 did not arrive (expired)"));
+}
+
+TEST_F(MissionBoardTest, OneThatExpiresHoldsNoneThatCameBeforeIt) {
+  Mission first = For("m1");
+  first.valid_for_s = 600;
+  Hear(first);
+  Hear(For("m2", "follow yard"));
+  (void)Say();
+  Pass(seconds(61));
+  EXPECT_EQ(StateOf("m2"), State::kExpired);
+  RobotIsThere();
   EXPECT_EQ(HandedOver()->id, "m1");
-  RobotSays("m1", 1, State::kAccepted);
-  Pass(milliseconds(1100));
+}
+
+TEST_F(MissionBoardTest, WhatARobotTookWithoutThisServerComesFirst) {
+  RobotIsThere();
+  RobotSays("other", 2, State::kUnderWay);
+  Hear(For("m1"));
+  EXPECT_FALSE(HandedOver());
+  EXPECT_THAT(WaitsFor("m1"), HasSubstr("it does mission other"));
+  RobotSays("other", 3, State::kFailed);
+  EXPECT_EQ(HandedOver()->id, "m1") << "it was sent without regard to that one";
+}
+
+TEST_F(MissionBoardTest, WhatWaitsForARobotThatIsOutOfReachWithAMissionIsKeptForLong) {
+  Hear(For("m1"));
+  Hear(For("m2", "follow yard"));
+  RobotIsThere();
+  RobotSays("m1", 1, State::kUnderWay);
+  (void)Say();
+  Hear(exchange::AgentGone{AgentId("robot1"), 1});
+  for (int restarts = 0; restarts < 2; ++restarts) {
+    Pass(std::chrono::hours(24));
+    EXPECT_EQ(StateOf("m2"), State::kSent);
+    Restart();
+  }
+  (void)Say();
+  RobotSays("m1", 2, State::kArrived);
+  Pass(seconds(1));
+  EXPECT_EQ(StateOf("m2"), State::kSent);
+  Pass(seconds(60));
+  EXPECT_EQ(StateOf("m2"), State::kExpired) << "it could have taken that, and was not heard";
+}
+
+TEST_F(MissionBoardTest, SaysAnewWhatItWaitsForAsThatChanges) {
+  const auto told = [this] {
+    std::string detail;
+    for (const exchange::Message& message : Say()) {
+      const auto* report = std::get_if<Report>(&message);
+      if (report != nullptr && report->mission == "m1") detail = report->detail;
+    }
+    return detail;
+  };
+  Hear(For("m1"));
+  EXPECT_THAT(told(), HasSubstr("not heard"));
+  EXPECT_EQ(told(), "");
+  RobotIsThere(1, exchange::AgentHold::kPaused);
+  EXPECT_THAT(told(), HasSubstr("held by desk"));
+  EXPECT_FALSE(HandedOver()) << "nothing is handed to who is held";
+  Hear(For("m1"));
+  EXPECT_THAT(told(), HasSubstr("held by desk")) << "whoever sends it again hears it again";
+  RobotIsThere(1);
+  EXPECT_TRUE(HandedOver());
+}
+
+TEST_F(MissionBoardTest, AStopHoldsTheQueueOfARobotThatHasNotHeardItUntilItIsToldToResume) {
+  Hear(For("m1"));
+  Hear(For("m2", "follow yard"));
+  Pass(seconds(1));
+  Tell(NowOrder::kStop, NowWhom::kRobot, "robot2");
+  EXPECT_THAT(WaitsFor("m1"), HasSubstr("not heard"));
+  Tell(NowOrder::kStop, NowWhom::kOnRoute, "yard");
+  unix_ms_ -= 86'400'000;  // the clock is set back
+  for (int restarts = 0; restarts < 2; ++restarts) {
+    RobotIsThere(1);
+    EXPECT_FALSE(HandedOver());
+    EXPECT_THAT(WaitsFor("m1"), HasSubstr("stopped by desk on 2023-11-14 at 22:13:21 UTC"));
+    Tell(NowOrder::kResume, NowWhom::kRobot, "robot2");
+    Restart();
+  }
+  RobotIsThere(1);
+  Tell(NowOrder::kRelease);
+  EXPECT_FALSE(HandedOver()) << "a robot that is released stands until it is told to resume";
+  Tell(NowOrder::kResume);
+  RobotIsThere(1, exchange::AgentHold::kPaused);
+  EXPECT_FALSE(HandedOver()) << "somebody has paused it";
+  Restart();
+  RobotIsThere(1);
+  EXPECT_EQ(HandedOver()->id, "m1");
+}
+
+TEST_F(MissionBoardTest, AHoldEndsWithItsQueue) {
+  Hear(For("m1"));
+  Tell(NowOrder::kStop);
+  Tell(NowOrder::kCancel);
+  (void)Say();
+  Restart();
+  RobotIsThere();
+  Hear(For("m2"));
   EXPECT_EQ(HandedOver()->id, "m2");
 }
 
@@ -238,27 +423,84 @@ TEST_F(MissionBoardTest, NoneIsKeptForEverForARobotThatIsNotHeard) {
   EXPECT_EQ(StateOf("m1"), State::kExpired);
 }
 
-TEST_F(MissionBoardTest, WhatIsStoppedOrCancelledIsNotHandedOverLater) {
-  std::uint64_t number = 0;
-  const auto command = [&number](NowOrder order, NowWhom whom, const std::string& name) {
-    return exchange::NowCommand{.client = AgentId("desk-p9"),
-                                .number = ++number,
-                                .order = order,
-                                .whom = whom,
-                                .name = name};
-  };
+class GoingToPlaces : public MissionBoardTest {
+ protected:
+  void Plan() {
+    board_->PlanBy([this](const AgentId& agent, const std::string& goal) -> Result<bool> {
+      EXPECT_EQ(agent, AgentId("robot1"));
+      goals_.push_back(goal);
+      return way_;
+    });
+  }
+  Result<bool> way_ = true;
+  std::vector<std::string> goals_;
+};
+
+TEST_F(GoingToPlaces, OneThatWaitedIsToldThePathFromWhereItStandsThen) {
+  const std::string orders = "goto bay follow hall 0..2";
+  Plan();
+  RobotIsThere();
+  Hear(For("m1", orders));
+  EXPECT_EQ(HandedOver()->orders, orders) << "it did not wait";
+  RobotSays("m1", 1, State::kUnderWay);
+  Hear(For("m2", orders));
+  (void)Say();
+  Hear(For("m2", orders));
+  EXPECT_EQ(Said()->state, State::kSent) << "it is the same mission when its sender repeats it";
+  EXPECT_THAT(goals_, IsEmpty());
+  Restart();
+  Plan();
+  RobotIsThere();
+  RobotSays("m1", 2, State::kArrived);
+  EXPECT_EQ(HandedOver()->orders, "goto bay wait way");
+  EXPECT_THAT(goals_, testing::ElementsAre("bay"));
+}
+
+TEST_F(GoingToPlaces, OneThatStandsThereByThenHasArrivedAndTheNextFollows) {
+  Plan();
+  way_ = false;
+  RobotIsThere();
   Hear(For("m1"));
-  Hear(command(NowOrder::kPause, NowWhom::kAll, ""));
-  Hear(command(NowOrder::kStop, NowWhom::kRobot, "robot2"));
-  Hear(command(NowOrder::kCancel, NowWhom::kOnRoute, "yard"));
+  Hear(For("m2", "goto bay follow hall 0..2"));
+  Hear(For("m3", "follow yard"));
+  RobotSays("m1", 1, State::kUnderWay);
+  (void)Say();
+  RobotSays("m1", 2, State::kArrived);
+  EXPECT_FALSE(HandedOver());
+  EXPECT_EQ(StateOf("m2"), State::kArrived);
+  Pass(seconds(2));
+  EXPECT_EQ(HandedOver()->id, "m3");
+}
+
+TEST_F(GoingToPlaces, OneWhosePlaceIsNotKnownByThenGoesNowhereAndTheRestIsHeld) {
+  Plan();
+  way_ = Fail(ErrorCode::kNotFound, "robot1 has not said where it stands");
+  RobotIsThere();
+  Hear(For("m1"));
+  Hear(For("m2", "goto bay follow hall 0..2"));
+  Hear(For("m3", "follow yard"));
+  RobotSays("m1", 1, State::kUnderWay);
+  (void)Say();
+  RobotSays("m1", 2, State::kArrived);
+  EXPECT_FALSE(HandedOver());
+  EXPECT_EQ(LastOf("m2").state, State::kRefused);
+  EXPECT_EQ(LastOf("m2").detail, "robot1 has not said where it stands");
+  EXPECT_THAT(WaitsFor("m3"), HasSubstr("mission m2 did not arrive (refused)"));
+}
+
+TEST_F(MissionBoardTest, WhatIsCancelledIsNotHandedOverLater) {
+  Hear(For("m1"));
+  Tell(NowOrder::kPause, NowWhom::kAll, "");
+  Tell(NowOrder::kCancel, NowWhom::kRobot, "robot2");
+  Tell(NowOrder::kCancel, NowWhom::kOnRoute, "yard");
   EXPECT_EQ(board_->unanswered(), 1U);
-  Hear(command(NowOrder::kCancel, NowWhom::kOnRoute, "hall"));
+  Tell(NowOrder::kCancel, NowWhom::kOnRoute, "hall");
   const auto said = Said();
   ASSERT_TRUE(said);
   EXPECT_EQ(said->state, State::kCancelled);
   EXPECT_THAT(said->detail, HasSubstr("desk told it to cancel"));
   Hear(For("m2"));
-  Hear(command(NowOrder::kStop, NowWhom::kAll, ""));
+  Tell(NowOrder::kCancel, NowWhom::kAll, "");
   EXPECT_EQ(board_->unanswered(), 0U);
   RobotIsThere();
   EXPECT_FALSE(HandedOver());
@@ -344,7 +586,7 @@ TEST_F(MissionBoardTest, MissionsThatComeTogetherAreOneCommitAndSoIsTheirEnd) {
   EXPECT_THAT(Say(), SizeIs(kMissions));
   const auto stored = std::filesystem::file_size(log);
   EXPECT_LT(stored - before, kMissions * kPage / 2);
-  Hear(exchange::NowCommand{.client = AgentId("desk"), .number = 1});
+  Tell(NowOrder::kCancel, NowWhom::kAll, "");
   EXPECT_THAT(Say(), SizeIs(kMissions)) << "cancelled, each";
   EXPECT_LT(std::filesystem::file_size(log) - stored, kMissions * kPage / 2);
   EXPECT_EQ(board_->unanswered(), 0U);
