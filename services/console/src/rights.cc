@@ -27,6 +27,7 @@ constexpr Row kRows[] = {
     {"GET", "/api/events", Role::kLook},
     {"GET", "/api/alerts", Role::kLook},
     {"GET", "/api/missions", Role::kLook},
+    {"GET", "/api/figures", Role::kLook},
     {"GET", "/api/robots/*/glance", Role::kLook},
     {"GET", "/api/commands", Role::kLook},
     {"GET", "/api/changes", Role::kLook},

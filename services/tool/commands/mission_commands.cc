@@ -10,10 +10,12 @@
 #include "services/base/time.h"
 #include "services/base/unix_time.h"
 #include "services/fleet/draw.h"
+#include "services/fleet/history_figures.h"
 #include "services/fleet/known_robot.h"
 #include "services/fleet/mission_client.h"
 #include "services/fleet/network_client.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/routes/catalog_client.h"
 #include "services/mission/orders.h"
 #include "services/network/words.h"
 #include "services/program/json.h"
@@ -221,16 +223,23 @@ struct MissionsOptions {
   std::size_t limit = 50;
   bool commands = false;
   bool open = false;
+  std::string by;
+  bool csv = false;
   bool watch = false;
   bool json = false;
   double timeout_s = 5.0;
 };
+
+// More than a server keeps.
+constexpr std::size_t kAllMissions = 1'000'000;
 
 constexpr const char* kMissionsExamples =
     "Examples:\n"
     "  trailcast missions                          # the newest first\n"
     "  trailcast missions --robot robot1 --watch   # and again whenever something has changed\n"
     "  trailcast missions --open                   # each robot's queue, in its order\n"
+    "  trailcast missions --by week --csv          # kilometres, share that arrived, "
+    "interventions\n"
     "  trailcast missions --commands               # who told whom to pause, stop, .. and when\n"
     "  trailcast missions --route hall --state failed --newer-than 7d --json";
 
@@ -286,6 +295,52 @@ Result<Listing> Look(fleet::OperatorPeer& peer, const MissionsOptions& options) 
   if (!missions) return tl::unexpected(missions.error());
   if (options.open) fleet::SortAsQueues(*missions);
   return listed(*missions, fleet::MissionsTable, fleet::MissionsJson);
+}
+
+// Asks how long routes are. Of several routes of one name it is the one that robots follow.
+Result<std::map<std::string, double>> Measure(fleet::OperatorPeer& peer,
+                                              const std::set<std::string>& routes,
+                                              std::chrono::milliseconds timeout) {
+  std::map<std::string, double> lengths_m;
+  for (const std::string& route : routes) {
+    route::RouteQuery query;
+    query.name = route;
+    const auto reply = fleet::AskCatalog(*peer.exchange, peer.self, query, timeout);
+    if (!reply) return tl::unexpected(reply.error());
+    for (const route::RouteInfo& info : reply->page.routes) {
+      if (info.standing == route::Standing::kActive) lengths_m[route] = info.length_m;
+    }
+  }
+  return lengths_m;
+}
+
+int Figure(const CLI::App& app, const program::CommonOptions& common,
+           const MissionsOptions& options) {
+  exchange::TopicUse use = exchange::HistoryTopics();
+  const exchange::TopicUse catalog = exchange::ObserverTopics();
+  use.write.insert(use.write.end(), catalog.write.begin(), catalog.write.end());
+  use.read.insert(use.read.end(), catalog.read.begin(), catalog.read.end());
+  auto peer = fleet::JoinAsOperator(common, use);
+  if (!peer) return program::Complain(app, peer.error());
+  const auto timeout = ToMilliseconds(options.timeout_s);
+  const mission::Query query = QueryOf(options);
+  const auto missions =
+      fleet::AskForMissions(*peer->exchange, peer->self, query, kAllMissions, timeout);
+  if (!missions) return program::Complain(app, missions.error());
+  mission::Query of_commands;
+  of_commands.from_unix_ms = query.from_unix_ms;
+  const auto commands =
+      fleet::AskForCommands(*peer->exchange, peer->self, of_commands, kAllMissions, timeout);
+  if (!commands) return program::Complain(app, commands.error());
+  const auto lengths_m = Measure(*peer, fleet::RoutesToMeasure(*missions), timeout);
+  if (!lengths_m) return program::Complain(app, lengths_m.error());
+  const fleet::FiguresBy by = *fleet::ReadFiguresBy(options.by);
+  const auto figures = fleet::FiguresOf(*missions, *commands, *lengths_m, by);
+  const std::string text = options.csv    ? fleet::FiguresCsv(figures, by)
+                           : options.json ? program::Indented(fleet::FiguresJson(figures))
+                                          : fleet::FiguresTable(figures, by);
+  std::fputs(text.c_str(), stdout);
+  return program::kExitOk;
 }
 
 int List(const CLI::App& app, const program::CommonOptions& common,
@@ -377,12 +432,23 @@ Command AddMissions(CLI::App& parent, const program::CommonOptions& common) {
       ->capture_default_str();
   app->add_flag("--commands", options->commands,
                 "Those that robots were given with pause, resume, cancel, stop, release and end");
-  app->add_flag("--watch", options->watch, "Again whenever something has changed, until Ctrl-C");
+  auto* watch = app->add_flag("--watch", options->watch,
+                              "Again whenever something has changed, until Ctrl-C");
+  auto* by = app->add_option("--by", options->by,
+                             "In place of the list, figures by 'robot', 'route' or 'week': "
+                             "missions that have ended, the share that arrived, the kilometres of "
+                             "the orders that were done, and how often a person had to see to a "
+                             "robot: it failed, or was paused, stopped or cancelled on its way");
+  by->check(CLI::IsMember({"robot", "route", "week"}))->excludes(watch)->excludes("--commands");
+  app->add_flag("--csv", options->csv, "With --by: for spreadsheets")->needs(by);
   app->add_flag("--json", options->json, "For programs");
   app->add_option("--timeout", options->timeout_s, "Seconds to wait for a server")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));
-  return {app, [app, options, &common] { return List(*app, common, *options); }};
+  return {app, [app, options, &common] {
+            return options->by.empty() ? List(*app, common, *options)
+                                       : Figure(*app, common, *options);
+          }};
 }
 
 }  // namespace

@@ -135,6 +135,9 @@ TEST_F(WebTest, RefusesOtherHostsAndOtherPages) {
   EXPECT_EQ(Client().Get("/api/missions?limit=101")->status, 400);
   EXPECT_EQ(Client().Get("/api/missions?robot=a%2Fb")->status, 400);
   EXPECT_EQ(Client().Get("/api/missions")->status, 503) << "no server";
+  EXPECT_EQ(Client().Get("/api/figures?group=month")->status, 400);
+  EXPECT_EQ(Client().Get("/api/figures?format=xml")->status, 400);
+  EXPECT_EQ(Client().Get("/api/figures?group=week")->status, 503) << "no server";
 }
 
 TEST_F(WebTest, WhatIsThereForAnotherMethodIsSaid) {
