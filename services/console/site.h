@@ -64,6 +64,9 @@ class Site {
 
   // On the disk when it returns; nothing: the route is taken from the site.
   [[nodiscard]] Result<void> Place(const RouteId& route, const std::optional<Placement>& placement);
+  // Returns where the floor plan's lower left corner is, if its site.json says so.
+  [[nodiscard]] const std::optional<Origin>& origin() const { return origin_; }
+  [[nodiscard]] Placements placements();
   // As openapi.yaml's Site.
   [[nodiscard]] std::string Body();
 

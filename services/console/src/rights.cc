@@ -35,6 +35,7 @@ constexpr Row kRows[] = {
     {"GET", "/api/routes/*/shape", Role::kLook},
     {"GET", "/api/network", Role::kLook},
     {"GET", "/api/network/way", Role::kLook},
+    {"GET", "/api/site/geojson", Role::kLook},
     {"GET", "/api/runs", Role::kLook},
     {"GET", "/api/runs/*", Role::kLook},
     {"GET", "/api/runs/*/frames", Role::kLook},

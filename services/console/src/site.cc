@@ -189,6 +189,11 @@ Result<void> Site::Place(const RouteId& route, const std::optional<Placement>& p
   return {};
 }
 
+Placements Site::placements() {
+  const std::scoped_lock lock(mutex_);
+  return placements_;
+}
+
 std::string Site::Body() {
   Json plan;
   if (plan_) plan = {{"metres_per_pixel", plan_->metres_per_pixel}};

@@ -249,6 +249,7 @@ TEST(Rights, AreGivenByTheTableAlone) {
   EXPECT_EQ(RightTo("GET", "/api/state").needs, Role::kLook);
   EXPECT_EQ(RightTo("GET", "/api/site").needs, Role::kLook);
   EXPECT_EQ(RightTo("GET", "/api/figures").needs, Role::kLook);
+  EXPECT_EQ(RightTo("GET", "/api/site/geojson").needs, Role::kLook);
   EXPECT_EQ(RightTo("PUT", "/api/site/placements/ab").needs, Role::kOperate);
   EXPECT_EQ(RightTo("GET", "/metrics").needs, Role::kLook);
   EXPECT_FALSE(RightTo("POST", "/").is_known);

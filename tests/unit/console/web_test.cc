@@ -387,6 +387,36 @@ TEST_F(WebTest, WithoutAFolderNothingIsPutUponASite) {
   EXPECT_EQ(Client().Get("/api/site/plan")->status, 404);
   const std::string put = R"({"x_m": 1, "y_m": 2, "heading_rad": 0, "scale": 1})";
   EXPECT_EQ(Client().Put("/api/site/placements/" + id, put, "application/json")->status, 409);
+  EXPECT_EQ(Client().Get("/api/site/geojson")->status, 409);
+}
+
+TEST_F(WebTest, WhatIsPutUponASiteWithAnOriginIsExported) {
+  const test::TempDir folder;
+  std::ofstream(folder / "site.json")
+      << R"({"origin": {"longitude_deg": 11.5, "latitude_deg": 48.2}})";
+  const auto site = Site::Open(folder / "");
+  ASSERT_TRUE(site) << site.error().message;
+  web_ = Web::Open(desk_, atlas_, site->get(), "localhost", 0, {"desk.site"}).value();
+  const auto empty = Client().Get("/api/site/geojson");
+  ASSERT_TRUE(empty);
+  EXPECT_EQ(empty->status, 200) << empty->body;
+  EXPECT_EQ(empty->get_header_value("Content-Type"), "application/geo+json");
+  EXPECT_EQ(json::parse(empty->body)["type"], "FeatureCollection");
+  const auto place = [&](int number) {
+    const std::string id = std::string(30, 'a') + std::to_string(number);
+    const std::string put = R"({"x_m": 1, "y_m": 2, "heading_rad": 0, "scale": 1})";
+    EXPECT_EQ(Client().Put("/api/site/placements/" + id, put, "application/json")->status, 200);
+    return id;
+  };
+  const std::string id = place(10);
+  EXPECT_EQ(Client().Get("/api/site/geojson")->status, 503) << "no server has it";
+  EXPECT_EQ(Client().Get("/api/site/geojson?route=" + std::string(32, 'b'))->status, 200);
+  for (int number = 11; number <= 10 + static_cast<int>(Atlas::kMostAsked); ++number) {
+    (void)place(number);
+  }
+  const auto many = Client().Get("/api/site/geojson");
+  EXPECT_EQ(many->status, 409);
+  EXPECT_THAT(many->body, HasSubstr("name some"));
 }
 
 TEST_F(WebTest, ARouteIsPutUponASiteByItsOwnPageAlone) {

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "services/console/parameters.h"
 #include "services/console/src/api/answers.h"
+#include "services/console/src/geojson.h"
 #include "services/program/json.h"
 
 namespace trailcast::console {
@@ -32,6 +36,55 @@ void Draw(Atlas& atlas, const Request& request, Response& response) {
   Answer(response, 202, program::OneLine({{"fetched", program::Rounded(found->fetched, 100.0)}}));
 }
 
+// Answers with the routes that are placed, or those of them that the request names. While some are
+// being fetched, it tells what share is there.
+void ExportPlaced(Atlas& atlas, Site* site, const Request& request, Response& response) {
+  if (site == nullptr || !site->origin()) {
+    return Refuse(response, 409,
+                  "where the site is on the globe is not known: start the console with --site "
+                  "FOLDER, whose site.json has \"origin\"");
+  }
+  Placements placements = site->placements();
+  if (request.has_param("route")) {
+    std::set<std::string> named;
+    const auto [first, last] = request.params.equal_range("route");
+    for (auto each = first; each != last; ++each) named.insert(each->second);
+    std::erase_if(placements,
+                  [&](const auto& placed) { return !named.contains(placed.first.value()); });
+  }
+  if (placements.size() > Atlas::kMostAsked) {
+    return Refuse(
+        response, 409,
+        fmt::format("{} routes are placed, and {} at most are exported at once: name some, "
+                    "as route=ID&route=ID",
+                    placements.size(), Atlas::kMostAsked));
+  }
+  const auto until = std::chrono::steady_clock::now() + kLook;
+  auto features = program::Json::array();
+  double fetched = 0.0;
+  for (const auto& [route, placement] : placements) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        until - std::chrono::steady_clock::now());
+    const auto found =
+        atlas.Find(route, std::nullopt, std::max(left, std::chrono::milliseconds(0)));
+    if (!found && found.error().code == ErrorCode::kUnavailable) {
+      return Refuse(response, found.error());
+    }
+    fetched += !found || found->shape ? 1.0 : found->fetched;
+    if (!found || !found->shape) continue;  // it is deleted, or is still being taught
+    if (auto feature = GeoJsonOf(route, *found->shape, placement, *site->origin())) {
+      features.push_back(*std::move(feature));
+    }
+  }
+  if (fetched < static_cast<double>(placements.size())) {
+    const double share = fetched / static_cast<double>(placements.size());
+    return Answer(response, 202, program::OneLine({{"fetched", program::Rounded(share, 100.0)}}));
+  }
+  response.set_content(
+      program::OneLine({{"type", "FeatureCollection"}, {"features", std::move(features)}}),
+      "application/geo+json");
+}
+
 void Place(Site* site, const Request& request, Response& response,
            const std::optional<Placement>& placement) {
   if (site == nullptr) {
@@ -51,6 +104,9 @@ void ServeMap(http::Server& server, Atlas& atlas, Site* site) {
       [&atlas](const Request& request, Response& response) { Draw(atlas, request, response); });
   server.Get("/api/site", [site](const Request&, Response& response) {
     Answer(response, 200, site != nullptr ? site->Body() : NoSiteBody());
+  });
+  server.Get("/api/site/geojson", [&atlas, site](const Request& request, Response& response) {
+    ExportPlaced(atlas, site, request, response);
   });
   server.Get("/api/site/plan", [site](const Request&, Response& response) {
     if (site == nullptr || !site->plan()) return Refuse(response, 404, "there is no floor plan");
