@@ -91,7 +91,7 @@ Result<std::unique_ptr<NetworkBoard>> NetworkBoard::Open(AgentId server,
   if (!conditions) return tl::unexpected(conditions.error());
   auto names = board->store_->Names();
   if (!names) return tl::unexpected(names.error());
-  for (NamedPlace& named : *names) board->named_.emplace(named.name, std::move(named.place));
+  for (NamedPlace& named : *names) board->named_.emplace(named.name, std::move(named));
   auto proposed = board->store_->Proposals();
   if (!proposed) return tl::unexpected(proposed.error());
   auto searched = board->store_->Searched();
@@ -300,7 +300,7 @@ Result<Lines> NetworkBoard::Name(NamedPlace named, const std::string& by,
   if (!place) return tl::unexpected(place.error());
   named.place = *std::move(place);
   if (auto put = store_->Put(named, by, now_unix_ms); !put) return tl::unexpected(put.error());
-  named_[named.name] = named.place;
+  named_[named.name] = named;
   NoteChange();
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
   const auto called = Called(named);
@@ -312,7 +312,7 @@ Result<Lines> NetworkBoard::Forget(const std::string& name) {
   const auto at = named_.find(name);
   if (at == named_.end()) return Fail(ErrorCode::kNotFound, "no place is called '{}'", name);
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
-  const auto called = Called(NamedPlace{at->first, at->second});
+  const auto called = Called(at->second);
   if (!called) return tl::unexpected(called.error());
   if (auto forgotten = store_->Forget(name); !forgotten) return tl::unexpected(forgotten.error());
   named_.erase(at);
@@ -345,10 +345,10 @@ Result<Lines> NetworkBoard::All() {
     }
     lines.push_back(PlainText(line, exchange::kMaxLineBytes));
   }
-  for (const auto& [name, place] : named_) {
-    const auto called = Called(NamedPlace{name, place});
+  for (const auto& [name, named] : named_) {
+    const auto called = Called(named);
     if (!called) return tl::unexpected(called.error());
-    lines.push_back(ListedText(network::ToText(*called), IsUsed(place)));
+    lines.push_back(ListedText(network::ToText(*called), IsUsed(named.place)));
   }
   for (const std::size_t each : Open()) {
     network::Proposal proposal = proposed_[each].proposal;
@@ -360,8 +360,22 @@ Result<Lines> NetworkBoard::All() {
   return lines;
 }
 
+template <typename Find>
+Result<network::Way> NetworkBoard::NearestOf(const std::vector<Place>& places,
+                                             const Find& find) const {
+  std::optional<Result<network::Way>> nearest;
+  for (const Place& to : places) {
+    if (places.size() > 1 && !IsUsed(to)) continue;
+    Result<network::Way> way = find(to);
+    const bool is_better = nearest && way && (!*nearest || way->length_m < (*nearest)->length_m);
+    if (!nearest || is_better) nearest = std::move(way);
+  }
+  if (nearest) return *std::move(nearest);
+  return Fail(ErrorCode::kNotFound, "all homes are on revisions that robots do not follow");
+}
+
 Result<Lines> NetworkBoard::WayTo(const network::Question& question) {
-  const auto to = Resolve(question.to);
+  const auto to = PlacesOf(question.to);
   if (!to) return tl::unexpected(to.error());
   const std::string& robot = question.from.name;
   const auto* stands = robot.empty() ? nullptr : places_.Find(AgentId(robot));
@@ -374,18 +388,19 @@ Result<Lines> NetworkBoard::WayTo(const network::Question& question) {
   }
   const auto from = stands == nullptr ? Resolve(question.from) : Result<Place>(stands->place);
   if (!from) return tl::unexpected(from.error());
-  if (auto known = Know({KeyOf(from->route).route, KeyOf(to->route).route}); !known) {
+  if (auto known = Know({KeyOf(from->route).route, KeyOf(to->front().route).route}); !known) {
     return tl::unexpected(known.error());
   }
-  for (const auto& place : {*from, *to}) {
-    if (IsUsed(place)) continue;
+  for (const auto& place : {*from, to->front()}) {
+    if (IsUsed(place) || (to->size() > 1 && place != *from)) continue;
     const auto called = Called(place);
     if (!called) return tl::unexpected(called.error());
     return Fail(ErrorCode::kNotFound, "{} is on a revision that robots do not follow{}",
                 network::ToText(*called),
                 stands == nullptr ? "" : ", where " + robot + " may stand");
   }
-  const auto way = network_->ShortestWay(*from, *to);
+  const auto way =
+      NearestOf(*to, [&](const Place& each) { return network_->ShortestWay(*from, each); });
   if (!way) return tl::unexpected(way.error());
   const auto tasks = TasksOf(way->stretches, HeldBy(AgentId(robot)));
   if (!tasks) return tl::unexpected(tasks.error());
@@ -437,12 +452,12 @@ Result<std::vector<network::Stretch>> NetworkBoard::WayOn(const Place& from,
                                                           const std::string& goal) {
   const auto parsed = network::ParseGoal(goal);
   if (!parsed) return tl::unexpected(parsed.error());
-  const auto to = Resolve(*parsed);
+  const auto to = PlacesOf(*parsed);
   if (!to) return tl::unexpected(to.error());
-  if (auto known = Know({KeyOf(from.route).route, KeyOf(to->route).route}); !known) {
+  if (auto known = Know({KeyOf(from.route).route, KeyOf(to->front().route).route}); !known) {
     return tl::unexpected(known.error());
   }
-  auto way = network_->WayOn(from, *to);
+  auto way = NearestOf(*to, [&](const Place& each) { return network_->WayOn(from, each); });
   if (!way) return tl::unexpected(way.error());
   std::erase_if(way->stretches, [](const network::Stretch& each) {
     return each.length_m() <= kSame_m && each.turn_rad == 0.0;

@@ -187,6 +187,13 @@ class NetworkBoard {
   [[nodiscard]] Result<route::RouteInfo> Meant(const std::string& words) const;
   [[nodiscard]] Result<network::Place> Resolve(const network::Place& named) const;
   [[nodiscard]] Result<network::Place> Resolve(const network::Goal& goal) const;
+  // Returns the places that a goal means: all homes, if it is "home" and no place is called so.
+  [[nodiscard]] Result<std::vector<network::Place>> PlacesOf(const network::Goal& goal) const;
+  // Returns the shortest of the paths that `find` finds to each of these places, or the error of
+  // the first of them.
+  template <typename Find>
+  [[nodiscard]] Result<network::Way> NearestOf(const std::vector<network::Place>& places,
+                                               const Find& find) const;
   // Looks up the routes that are joined or have named places, and the ones asked for, if they are
   // not known yet.
   [[nodiscard]] Result<void> Know(const std::set<RouteId>& asked);
@@ -205,11 +212,11 @@ class NetworkBoard {
   AgentId server_;
   std::unique_ptr<store::NetworkStore> store_;
   store::RouteStore& routes_;
-  std::vector<network::Joint> joints_;           // of revisions: "ID/TEACHING"
-  std::vector<network::Condition> conditions_;   // of routes: "ID"
-  std::map<std::string, network::Place> named_;  // of revisions
-  std::vector<store::ProposedJoint> proposed_;   // of revisions
-  std::vector<store::KeptLane> lanes_;           // of routes
+  std::vector<network::Joint> joints_;                // of revisions: "ID/TEACHING"
+  std::vector<network::Condition> conditions_;        // of routes: "ID"
+  std::map<std::string, network::NamedPlace> named_;  // of revisions
+  std::vector<store::ProposedJoint> proposed_;        // of revisions
+  std::vector<store::KeptLane> lanes_;                // of routes
   std::set<AgentId> vacated_;
   FollowedLately followed_;
   std::vector<FollowedLately::Poor> poor_;  // sections by which paths are planned

@@ -52,12 +52,27 @@ Result<Place> NetworkBoard::Resolve(const Place& named) const {
 Result<Place> NetworkBoard::Resolve(const Goal& goal) const {
   if (goal.name.empty()) return Resolve(goal.place);
   const auto at = named_.find(goal.name);
-  if (at != named_.end()) return at->second;
+  if (at != named_.end()) return at->second.place;
   return Fail(
       ErrorCode::kNotFound,
       "no place is called '{}': 'trailcast network' lists those that are, 'trailcast network "
       "name {} ROUTE@METRES' makes it one",
       goal.name, goal.name);
+}
+
+Result<std::vector<Place>> NetworkBoard::PlacesOf(const Goal& goal) const {
+  if (goal.name != network::kHome || named_.contains(goal.name)) {
+    auto place = Resolve(goal);
+    if (!place) return tl::unexpected(place.error());
+    return std::vector{*std::move(place)};
+  }
+  std::vector<Place> homes;
+  for (const auto& [name, named] : named_) {
+    if (named.home) homes.push_back(named.place);
+  }
+  if (!homes.empty()) return homes;
+  return Fail(ErrorCode::kNotFound,
+              "no place is a home: 'trailcast network name NAME ROUTE@METRES home' makes it one");
 }
 
 Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
@@ -69,7 +84,7 @@ Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
     wanted.insert({KeyOf(joint.from.route).route, KeyOf(joint.to.route).route});
   }
   for (const Condition& condition : conditions_) wanted.insert(RouteId(condition.route));
-  for (const auto& [name, place] : named_) wanted.insert(KeyOf(place.route).route);
+  for (const auto& [name, named] : named_) wanted.insert(KeyOf(named.place.route).route);
   for (const store::KeptLane& kept : lanes_) {
     for (const network::Part& part : kept.lane.parts) wanted.insert(RouteId(part.route));
   }

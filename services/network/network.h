@@ -22,6 +22,7 @@ struct Place {
 struct NamedPlace {
   std::string name{};
   Place place{};
+  bool home = false;  // one of the places to which "home" leads
   bool operator==(const NamedPlace&) const = default;
 };
 

@@ -29,7 +29,8 @@ namespace trailcast::network {
 //                              several routes lead through
 //   wide ROUTE [FROM..TO]      removes each narrow place that has a part there
 //   vacate ROUTE [FROM..TO]    releases such a place by force from the robot that holds it
-//   name NAME PLACE            names a place; the name moves if another place had it
+//   name NAME PLACE [home]     names a place; the name moves if another place had it; with "home",
+//                              it is one of the places to which the goal "home" leads
 //   forget NAME
 //   confirm PLACE PLACE        makes the junction that the server proposes there
 //   confirm all [above F]      makes all proposed ones, or those of at least this confidence
@@ -115,6 +116,8 @@ struct Goal {
   Place place{};
   bool operator==(const Goal&) const = default;
 };
+// This goal means the nearest place that is a home, unless a place is called so.
+inline constexpr std::string_view kHome = "home";
 // A name has 1 to 64 bytes without blanks and '@'.
 [[nodiscard]] Result<Goal> ParseGoal(std::string_view word);
 

@@ -324,7 +324,7 @@ export type Proposal = Omit<Joint, 'used'> & { confidence: number };
 export type Stretch = { route: string; from_m: number; to_m: number | null; speed?: number; cost?: number };
 // How often robots came over it lately, and lost their path there.
 export type LostStretch = Stretch & { passed: number; lost: number; cost: number };
-export type NamedPlace = { name: string; place: Place; used: boolean };
+export type NamedPlace = { name: string; place: Place; home: boolean; used: boolean };
 
 // Routes that were asked for, with what is on them and between them; and of how many.
 export type NetworkPart = {

@@ -203,8 +203,10 @@ Json NetworkJson(const Lines& lines) {
     } else if (edit->kind == network::Edit::Kind::kNarrow) {
       network["narrow"].push_back(LaneJson(edit->lane, taken_by));
     } else if (edit->kind == network::Edit::Kind::kName) {
-      network["names"].push_back(
-          {{"name", edit->named.name}, {"place", PlaceJson(edit->named.place)}, {"used", used}});
+      network["names"].push_back({{"name", edit->named.name},
+                                  {"place", PlaceJson(edit->named.place)},
+                                  {"home", edit->named.home},
+                                  {"used", used}});
     } else {
       const network::Condition& condition = edit->condition;
       network[condition.closed   ? "closed"

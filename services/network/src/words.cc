@@ -23,7 +23,8 @@ constexpr const char* kEdits =
     "'limit ROUTE [FROM..TO] [speed F] [cost F]', "
     "'narrow ROUTE FROM..TO [ROUTE FROM..TO ...]', 'wide ROUTE [FROM..TO]', 'vacate ROUTE "
     "[FROM..TO]', "
-    "'name NAME PLACE', 'forget NAME', 'confirm PLACE PLACE', 'confirm all [above F]', 'refuse "
+    "'name NAME PLACE [home]', 'forget NAME', 'confirm PLACE PLACE', 'confirm all [above F]', "
+    "'refuse "
     "PLACE PLACE' or 'refuse all [below F]'";
 constexpr std::size_t kLongestName = 64;
 constexpr std::string_view kRoute = "route ";
@@ -124,8 +125,12 @@ Result<Edit> TakeName(Words& words, Edit::Kind kind) {
     auto place = ParsePlace(words.Take());
     if (!place) return tl::unexpected(place.error());
     edit.named.place = *std::move(place);
+    edit.named.home = words.TakeIf(kHome);
   }
-  if (!words.empty()) return Wrong(words.Next(), "nothing more");
+  if (!words.empty()) {
+    const bool names = kind == Edit::Kind::kName && !edit.named.home;
+    return Wrong(words.Next(), names ? "'home' or nothing more" : "nothing more");
+  }
   return edit;
 }
 
@@ -349,7 +354,8 @@ std::string ToText(const Route& route) {
 }
 
 std::string ToText(const NamedPlace& named) {
-  return "name " + named.name + " " + ToText(named.place);
+  return fmt::format("name {} {}{}{}", named.name, ToText(named.place), named.home ? " " : "",
+                     named.home ? kHome : "");
 }
 
 std::string ToText(const Joint& joint) {

@@ -104,7 +104,10 @@ CREATE TABLE backed_stretch (
 ) STRICT;
 )",
                                .holds = "joints",
-                               .called = "store of the network"};
+                               .called = "store of the network",
+                               .added = R"(
+CREATE TABLE IF NOT EXISTS home (name TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;
+)"};
 
 }  // namespace
 

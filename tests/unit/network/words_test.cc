@@ -83,6 +83,18 @@ TEST(NetworkWords, WhatIsNotUnderstoodIsNamed) {
   EXPECT_THAT(Why("name loading bay office@8"), HasSubstr("'bay'"));
   EXPECT_THAT(Why("name " + std::string(65, 'x') + " office@8"), HasSubstr("up to 64"));
   EXPECT_THAT(Why("forget bay office@8"), HasSubstr("nothing more"));
+  EXPECT_THAT(Why("name dock office@8 away"), HasSubstr("'away': expected 'home' or nothing more"));
+  EXPECT_THAT(Why("name dock office@8 home home"), HasSubstr("expected nothing more"));
+}
+
+TEST(NetworkWords, ANamedPlaceMayBeAHome) {
+  const auto edit = ParseEdit("name dock office@8 home");
+  ASSERT_TRUE(edit) << edit.error().message;
+  EXPECT_TRUE(edit->named.home);
+  EXPECT_EQ(ToText(edit->named), "name dock office@8 home");
+  const auto other = ParseListed("name bay office@8");
+  ASSERT_TRUE(other.edit);
+  EXPECT_FALSE(other.edit->named.home);
 }
 
 TEST(NetworkWords, AProposedJointIsConfirmedOrRefusedByItsPlacesOrAsOneOfAll) {

@@ -129,6 +129,12 @@ TEST_F(NetworkStoreTest, ANameIsThatOfOnePlace) {
   Reopen();
   EXPECT_THAT(store_->Names().value(),
               ElementsAre(NamedPlace{"bay", {"b/7", 0.0}}, NamedPlace{"dock", {"b/7", 3.0}}));
+  ASSERT_TRUE(store_->Put(NamedPlace{"bay", {"b/7", 0.0}, true}, "desk", 3000));
+  Reopen();
+  EXPECT_THAT(store_->Names().value(),
+              ElementsAre(NamedPlace{"bay", {"b/7", 0.0}, true}, NamedPlace{"dock", {"b/7", 3.0}}));
+  ASSERT_TRUE(store_->Put(NamedPlace{"bay", {"b/7", 0.0}}, "desk", 4000));
+  EXPECT_FALSE(store_->Names().value().front().home) << "it is one no more";
   ASSERT_TRUE(store_->Forget("bay"));
   ASSERT_TRUE(store_->Forget("bay")) << "of what is not there, too";
   Reopen();

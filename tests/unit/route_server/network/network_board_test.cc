@@ -107,6 +107,25 @@ TEST_F(NetworkBoardTest, JoinedRoutesMakeAWayThatIsAMissionsOrders) {
   EXPECT_THAT(Asked(), IsEmpty());
 }
 
+TEST_F(NetworkBoardTest, HomeIsTheNearestPlaceOfThatKind) {
+  (void)Done("join hall@12 office@0");
+  EXPECT_THAT(Ask("way hall@2 home").error, HasSubstr("no place is a home"));
+  EXPECT_THAT(Done("name far office@9 home"), ElementsAre("name far office@9 home"));
+  EXPECT_THAT(Done("name near hall@15 home"), ElementsAre("name near hall@15 home"));
+  (void)Done("name bay hall@4");
+  EXPECT_THAT(Asked("way hall@2 home"), ElementsAre("follow hall 2..15"));
+  EXPECT_THAT(Asked("way office@1 home"), ElementsAre("follow office 1..9"))
+      << "no way to the other";
+  EXPECT_THAT(Asked("way hall@15 home"), IsEmpty()) << "it is there";
+  Restart();
+  EXPECT_THAT(Asked("way hall@2 home"), ElementsAre("follow hall 2..15")) << "it is durable";
+  (void)Done("close hall 13..14");
+  EXPECT_THAT(Asked("way hall@2 home"), ElementsAre("follow hall 2..12", "follow office 0..9"));
+  EXPECT_THAT(Ask("way ring@2 home").error, HasSubstr("no way leads from ring@2"));
+  (void)Done("name home hall@4");
+  EXPECT_THAT(Asked("way hall@2 home"), ElementsAre("follow hall 2..4")) << "one is called so";
+}
+
 TEST_F(NetworkBoardTest, WhatIsProposedIsNoWayUntilItIsConfirmed) {
   EXPECT_EQ(Propose({Key(1), Key(2), 12.0, 0.4, 3.0, 0.05, 0.93}),
             "proposed join hall@12 office@0.4 both heading 2.9 confidence 0.93");
