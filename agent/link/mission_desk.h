@@ -53,6 +53,9 @@ class MissionDesk {
   // Returns the mission to be done, or none if the robot is free.
   [[nodiscard]] const std::optional<Current>& current() const { return current_; }
 
+  // Says whether a server is there that keeps missions for robots.
+  [[nodiscard]] bool has_keeper() const { return !keepers_.empty(); }
+
   // Says whether, since the last call, a server has sent another path to the current mission's
   // destination (mission::Going). Its tasks then begin from the first, or from the one that GoOnAt
   // names.

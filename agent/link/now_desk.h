@@ -30,6 +30,7 @@ class NowDesk {
   void ForgetCancelled() { hold_.ForgetCancelled(); }
   void Teaches(bool teaches) { hold_.Teaches(teaches); }
   void Works(bool works) { hold_.Works(works); }
+  void MayBeSent(bool may_be_sent) { hold_.MayBeSent(may_be_sent); }
 
   // `route` is the name of the robot's present route; `unix_ms` is the time by the robot's clock.
   void Handle(const exchange::Message& message, const std::string& route, std::int64_t unix_ms);

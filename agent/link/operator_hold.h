@@ -53,18 +53,22 @@ class OperatorHold {
 
   // Tells whether there is something that an operator can cancel.
   void Works(bool works) { works_ = works; }
+  // Tells whether there is a server that can send the robot somewhere.
+  void MayBeSent(bool may_be_sent) { may_be_sent_ = may_be_sent; }
 
   [[nodiscard]] const Hold& hold() const { return hold_; }
 
  private:
   [[nodiscard]] Obeyed Stop(std::string text);
   [[nodiscard]] Obeyed Release();
+  [[nodiscard]] Obeyed LeaveForHome(const std::string& by, const std::string& why);
   [[nodiscard]] Result<void> Keep() const;
 
   std::filesystem::path file_;
   Hold hold_;
   bool teaches_ = false;
   bool works_ = true;
+  bool may_be_sent_ = false;
 };
 
 }  // namespace trailcast::agent

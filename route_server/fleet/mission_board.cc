@@ -27,6 +27,10 @@ constexpr milliseconds kExpireEvery{1000};
 constexpr milliseconds kAmendedEvery{2000};
 // Strangers can make up missions that are under way on a robot.
 constexpr std::size_t kMostUnended = 64;
+// The mission of a robot that is sent home.
+constexpr const char* kHomePrefix = "home-";
+constexpr const char* kHome = "home";
+constexpr std::uint32_t kHomeWithin_s = 600;
 
 std::string Describe(const mission::Mission& mission) {
   return fmt::format("mission {} of '{}': {}", mission.id, mission.agent.value(),
@@ -46,6 +50,11 @@ std::uint32_t ValidFor_s(const mission::Mission& mission) {
 // Returns the orders of a mission whose path is only found once its robot is about to begin.
 std::string OrdersWithoutWay(const std::string& goal) {
   return fmt::format("goto {} wait way", goal);
+}
+
+bool SendsHome(const mission::Record& record) {
+  return record.mission.id.starts_with(kHomePrefix) &&
+         record.mission.orders == OrdersWithoutWay(kHome);
 }
 
 // Another path to the same place is the same mission.
@@ -127,6 +136,7 @@ Result<void> MissionBoard::LoadQueues() {
   constexpr auto kNotYet = std::numeric_limits<std::int64_t>::max();
   for (auto& [agent, queue] : unanswered_) {
     changed_.insert(agent);
+    std::stable_partition(queue.begin(), queue.end(), SendsHome);
     for (Waiting& record : queue) record.since_unix_ms = kNotYet;
     if (unended_.Find(agent) != nullptr) continue;
     const auto before =
@@ -170,9 +180,9 @@ void MissionBoard::Handle(const exchange::Message& message, Time now, std::int64
   } else if (const auto* request = std::get_if<exchange::MissionRequest>(&message)) {
     On(*request);
   } else if (const auto* command = std::get_if<exchange::NowCommand>(&message)) {
-    if (!command->relayed) On(*command, now_unix_ms);
+    if (!command->relayed) On(*command, now, now_unix_ms);
   } else if (const auto* answer = std::get_if<exchange::NowAnswer>(&message)) {
-    if (!answer->relayed) On(*answer);
+    if (!answer->relayed) On(*answer, now, now_unix_ms);
   } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     On(*status, now);
   } else if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
@@ -374,8 +384,14 @@ void MissionBoard::On(const exchange::MissionRequest& request) {
 
 // A cancellation voids the missions that were sent before it, even if the robot has not heard of
 // them yet.
-void MissionBoard::On(const exchange::NowCommand& command, std::int64_t now_unix_ms) {
-  if (std::exchange(commands_.Touch({command.client, command.number}), true)) return;
+void MissionBoard::On(const exchange::NowCommand& command, Time now, std::int64_t now_unix_ms) {
+  const NowKey key{command.client, command.number};
+  if (std::exchange(commands_.Touch(key), command)) return;
+  std::vector<AgentId> answered;
+  for (const auto& [from, answer] : answers_) {
+    if (from.second == key) answered.push_back(from.first);
+  }
+  for (const AgentId& agent : answered) SendHome(command, agent, now, now_unix_ms);
   if (const auto added = store_->Add(command, now_unix_ms); !added) Warn(added.error());
   HoldOrLetGo(command, now_unix_ms);
   if (command.order != exchange::NowOrder::kCancel) return;
@@ -457,7 +473,9 @@ void MissionBoard::HoldAfter(const mission::Report& end, std::int64_t now_unix_m
 std::string MissionBoard::WhyNotNow(const AgentId& agent) const {
   const Heard* heard = heard_.Find(agent);
   if (heard != nullptr && heard->hold == exchange::AgentHold::kStopped) return heard->hold_text;
-  if (const std::string held = HeldBy(agent); !held.empty()) return held;
+  const auto queue = unanswered_.find(agent);
+  const bool goes_home = queue != unanswered_.end() && SendsHome(queue->second.front());
+  if (const std::string held = HeldBy(agent); !held.empty() && !goes_home) return held;
   if (const auto* unended = unended_.Find(agent)) {
     const mission::Record* current = CurrentOf(agent);
     return current == nullptr ? "it does mission " + unended->begin()->first
@@ -532,10 +550,36 @@ bool MissionBoard::PlanAnew(const Waiting& record, std::int64_t now_unix_ms) {
   return false;
 }
 
-void MissionBoard::On(const exchange::NowAnswer& answer) {
-  const NowKey command{answer.client, answer.number};
-  if (std::exchange(answers_.Touch({answer.agent, command}), true)) return;
+void MissionBoard::On(const exchange::NowAnswer& answer, Time now, std::int64_t now_unix_ms) {
+  const NowKey key{answer.client, answer.number};
+  if (std::exchange(answers_.Touch({answer.agent, key}), answer)) return;
   if (const auto added = store_->Add(answer); !added) Warn(added.error());
+  const auto* command = commands_.Find(key);
+  if (command == nullptr || !*command) return;
+  SendHome(exchange::NowCommand(**command), answer.agent, now, now_unix_ms);
+}
+
+// An answer may come before its command does.
+void MissionBoard::SendHome(const exchange::NowCommand& command, const AgentId& agent, Time now,
+                            std::int64_t now_unix_ms) {
+  const auto* answer = answers_.Find({agent, {command.client, command.number}});
+  const bool obeys = answer != nullptr && *answer && !(*answer)->refused;
+  if (command.order != exchange::NowOrder::kHome || !obeys) return;
+  const mission::Mission mission{.agent = agent,
+                                 .id = fmt::format("{}{:016x}", kHomePrefix, command.number),
+                                 .client = command.client,
+                                 .orders = OrdersWithoutWay(kHome),
+                                 .valid_for_s = kHomeWithin_s};
+  Take({&mission, 1}, now, now_unix_ms);
+  const auto found = unanswered_.find(agent);
+  if (found == unanswered_.end() || found->second.back().mission.id != mission.id) return;
+  Queue& queue = found->second;
+  std::rotate(queue.begin(), queue.end() - 1, queue.end());
+  if (queue.size() < 2) return;
+  Hold(agent,
+       fmt::format("sent home by {} {}, until it is told to resume",
+                   WithoutProcess(command.client.value()), MomentText(now_unix_ms)),
+       now_unix_ms);
 }
 
 void MissionBoard::Drop(mission::State state, const Why& why, std::int64_t now_unix_ms) {

@@ -32,7 +32,8 @@ namespace trailcast::server {
 // other mission, and is not held by an operator. The queue goes on by itself only after a mission
 // that has arrived, because what comes next may begin where the one before was to end. After any
 // other end, and after a stop, it is held until the robot is told to resume, also over a restart of
-// this server, and even if the robot never heard of the stop.
+// this server, and even if the robot never heard of the stop. A robot that obeys a command to go
+// home is sent there before its queue, which is held likewise.
 class MissionBoard {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -81,8 +82,11 @@ class MissionBoard {
   [[nodiscard]] Result<void> LookUp(const exchange::MissionRequest& request,
                                     exchange::MissionReply& reply);
   [[nodiscard]] std::vector<std::string> RobotsLike(const std::string& robot) const;
-  void On(const exchange::NowCommand& command, std::int64_t now_unix_ms);
-  void On(const exchange::NowAnswer& answer);
+  void On(const exchange::NowCommand& command, Time now, std::int64_t now_unix_ms);
+  void On(const exchange::NowAnswer& answer, Time now, std::int64_t now_unix_ms);
+  // Sends a robot home that has answered that it obeys.
+  void SendHome(const exchange::NowCommand& command, const AgentId& agent, Time now,
+                std::int64_t now_unix_ms);
   void On(const exchange::AgentStatus& status, Time now);
   void On(const exchange::AgentGone& gone);
   [[nodiscard]] Result<void> LoadQueues();
@@ -166,8 +170,8 @@ class MissionBoard {
   Time expire_at_{};
   // The commands and answers that are stored, because they are repeated.
   using NowKey = std::pair<AgentId, std::uint64_t>;
-  NewestMap<NowKey, bool> commands_{kMostAgents};
-  NewestMap<std::pair<AgentId, NowKey>, bool> answers_{kMostAgents};
+  NewestMap<NowKey, std::optional<exchange::NowCommand>> commands_{kMostAgents};
+  NewestMap<std::pair<AgentId, NowKey>, std::optional<exchange::NowAnswer>> answers_{kMostAgents};
   CheckWay check_way_;
   // Missions that cannot be stored are repeated, too.
   ToldLately told_{std::chrono::milliseconds(60'000)};

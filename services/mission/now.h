@@ -16,6 +16,7 @@ enum class NowOrder : std::uint8_t {
   kStop = 3,     // stand, also after a restart, until it is released
   kRelease = 4,  // no longer stopped, but paused
   kEnd = 5,      // what it teaches is complete
+  kHome = 6,     // end what it does; a server then sends it home, and holds its queue
 };
 
 [[nodiscard]] const char* ToString(NowOrder order);  // "pause"

@@ -55,6 +55,7 @@ void Duty::Hear(const exchange::Message& message) {
   if (following_) return;
   const bool teaches = hands_ != nullptr;
   now_desk_.Works(desk_.current().has_value());
+  now_desk_.MayBeSent(desk_.has_keeper());
   now_desk_.Handle(message, teaches ? on_route_ : "", NowUnixMs());
   if (!teaches) return;
   hands_->Tell(now_desk_.hold());

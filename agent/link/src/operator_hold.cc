@@ -66,6 +66,20 @@ OperatorHold::Obeyed OperatorHold::Release() {
   return {false, hold_.text};
 }
 
+// A server sends the mission that leads home, with the path from where the robot stands.
+OperatorHold::Obeyed OperatorHold::LeaveForHome(const std::string& by, const std::string& why) {
+  if (hold_.kind == Hold::Kind::kStopped) return {true, hold_.text + "; release it first"};
+  if (hold_.kind == Hold::Kind::kPaused) return {true, hold_.text + "; resume it first"};
+  if (teaches_) return {true, "teaches a route: end that first"};
+  if (!may_be_sent_) {
+    return {true, "hears no server that keeps missions, and so could not be sent home"};
+  }
+  hold_.cancelled = works_;
+  return {false,
+          fmt::format("{} by {}{}", works_ ? "ends its mission, and is sent home" : "is sent home",
+                      by, why)};
+}
+
 void OperatorHold::Pause(std::string text) {
   if (hold_.kind != Hold::Kind::kNone) return;
   hold_.kind = Hold::Kind::kPaused;
@@ -88,6 +102,8 @@ OperatorHold::Obeyed OperatorHold::Obey(const exchange::NowCommand& command, con
       if (!works_) return {true, "has no mission to cancel"};
       hold_.cancelled = true;
       return {false, (teaches_ ? "teaching discarded by " : "mission cancelled by ") + by + why};
+    case NowOrder::kHome:
+      return LeaveForHome(by, why);
     case NowOrder::kStop:
       return Stop(fmt::format("stopped by {} {}{}", by, MomentText(unix_ms), why));
     case NowOrder::kRelease:

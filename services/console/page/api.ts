@@ -16,7 +16,7 @@ export type RobotState =
   | 'offline' | 'stopped' | 'paused' | 'starting' | 'available' | 'waiting' | 'teaching' | 'driving'
   | 'arrived' | 'failed' | 'shut down' | 'fault';
 
-export type Order = 'pause' | 'resume' | 'cancel' | 'stop' | 'release' | 'end';
+export type Order = 'pause' | 'resume' | 'cancel' | 'stop' | 'release' | 'end' | 'home';
 
 export type Robot = {
   name: string;

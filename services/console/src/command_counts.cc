@@ -17,8 +17,9 @@ void CommandCounts::Count(NowOrder order, const std::vector<fleet::RobotsWord>& 
 void CommandCounts::Measure(http::MetricsText& text) {
   const std::scoped_lock lock(mutex_);
   text.Begin("commands_total", "counter", "Commands to robots from this console, each robot's.");
-  for (const NowOrder order : {NowOrder::kPause, NowOrder::kResume, NowOrder::kCancel,
-                               NowOrder::kStop, NowOrder::kRelease, NowOrder::kEnd}) {
+  for (const NowOrder order :
+       {NowOrder::kPause, NowOrder::kResume, NowOrder::kCancel, NowOrder::kStop, NowOrder::kRelease,
+        NowOrder::kEnd, NowOrder::kHome}) {
     for (const auto& [result, name] : {std::pair{Result::kObeyed, "obeyed"},
                                        {Result::kRefused, "refused"},
                                        {Result::kUnanswered, "unanswered"}}) {

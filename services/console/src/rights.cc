@@ -52,6 +52,8 @@ constexpr Row kRows[] = {
     {"GET", "/api/transfers/*/file", Role::kLook},
 
     {"POST", "/api/all/stop", Role::kOperate},
+    {"POST", "/api/all/home", Role::kOperate},
+    {"POST", "/api/robots/*/home", Role::kOperate},
     {"POST", "/api/alerts/*/acknowledge", Role::kOperate},
     {"POST", "/api/robots/*/pause", Role::kOperate},
     {"POST", "/api/robots/*/resume", Role::kOperate},

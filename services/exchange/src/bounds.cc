@@ -225,7 +225,7 @@ Result<void> Check(const RouteFollowers& message) {
 
 Result<void> Check(const NowCommand& message) {
   if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
-  if (auto ok = CheckEnum("order", message.order, NowOrder::kEnd); !ok) return ok;
+  if (auto ok = CheckEnum("order", message.order, NowOrder::kHome); !ok) return ok;
   if (auto ok = CheckEnum("whom", message.whom, NowWhom::kAll); !ok) return ok;
   if (message.whom != NowWhom::kAll) {
     if (auto ok = CheckName("name of whom it is for", message.name); !ok) return ok;

@@ -14,6 +14,8 @@ const char* ToString(NowOrder order) {
       return "stop";
     case NowOrder::kEnd:
       return "end";
+    case NowOrder::kHome:
+      return "home";
     case NowOrder::kRelease:
       return "release";
   }

@@ -1,4 +1,4 @@
-// These are `trailcast pause`, `resume`, `cancel`, `stop`, `release` and `end`.
+// These are `trailcast pause`, `resume`, `cancel`, `stop`, `release`, `home` and `end`.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -31,6 +31,7 @@ constexpr const char* kNowExamples =
     "  trailcast pause robot2 --reason 'somebody walks here'\n"
     "  trailcast stop --all                   # and none drives before it is released and resumed\n"
     "  trailcast release robot2 && trailcast resume robot2\n"
+    "  trailcast home --all                   # to the nearest place of that kind, each\n"
     "Robots that follow with --server obey, at once, and their wheels stand with the next "
     "picture.\n"
     "This is no emergency stop, and no safety-rated one: a robot that is out of reach drives on.\n"
@@ -102,6 +103,8 @@ std::vector<Command> AddNowCommands(CLI::App& parent, const program::CommonOptio
                  "Have robots stand, also after a restart, until they are released"),
           AddOne(parent, common, NowOrder::kRelease,
                  "Release stopped robots: they stand until they are told to resume"),
+          AddOne(parent, common, NowOrder::kHome,
+                 "Have robots end what they do and go home, and hold their queues until resumed"),
           AddOne(parent, common, NowOrder::kEnd,
                  "End what robots are teaching: the route is complete ('cancel' discards it)")};
 }

@@ -106,7 +106,7 @@ TEST_F(MissionsTest, AQueueOutlastsTheServerIsHeldAfterAFailureAndAStopAndGoesOn
   (void)End(*agent_);
   std::filesystem::remove(Path("routes.db.robot1.missions"));
   agent_ = Serve("robot1", "duty2");
-  ASSERT_TRUE(agent_->WaitForOutput("on duty as 'robot1'")) << agent_->output();
+  ASSERT_TRUE(agent_->WaitForOutput("available as 'robot1'")) << agent_->output();
   ASSERT_TRUE(open("waits: mission now did not arrive (failed)")) << Missions({"--open"}).output;
   EXPECT_EQ(Tool({"stop", "robot1"}).status, 0);
   EXPECT_EQ(Tool({"release", "robot1"}).status, 0);

@@ -245,6 +245,8 @@ TEST_F(AccessTest, BehindAProxyItSaysWhereClientsAre) {
 
 TEST(Rights, AreGivenByTheTableAlone) {
   EXPECT_EQ(RightTo("POST", "/api/robots/robot1/stop").needs, Role::kOperate);
+  EXPECT_EQ(RightTo("POST", "/api/robots/robot1/home").needs, Role::kOperate);
+  EXPECT_EQ(RightTo("POST", "/api/all/home").needs, Role::kOperate);
   EXPECT_EQ(RightTo("POST", "/api/routes/hall/edits").needs, Role::kAdminister);
   EXPECT_EQ(RightTo("GET", "/api/state").needs, Role::kLook);
   EXPECT_EQ(RightTo("GET", "/api/site").needs, Role::kLook);

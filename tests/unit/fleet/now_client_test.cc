@@ -10,6 +10,7 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/telling.h"
 #include "services/program/presence.h"
+#include "tests/support/await.h"
 
 namespace trailcast::fleet {
 namespace {

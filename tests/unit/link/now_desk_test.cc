@@ -46,6 +46,31 @@ class NowDeskTest : public testing::Test {
   NowDesk desk_{AgentId("robot1"), folder_ / "robot1.stop"};
 };
 
+TEST_F(NowDeskTest, IsSentHomeFromWhatItDoesUnlessItIsHeldOrTeaches) {
+  desk_.Works(true);
+  EXPECT_THAT(Tell(NowOrder::kHome).detail, HasSubstr("hears no server"));
+  EXPECT_FALSE(desk_.hold().cancelled);
+  desk_.MayBeSent(true);
+  EXPECT_THAT(Obeyed(NowOrder::kHome).detail, HasSubstr("ends its mission, and is sent home"));
+  EXPECT_TRUE(desk_.hold().cancelled);
+  EXPECT_EQ(kind(), Hold::Kind::kNone) << "it may drive";
+  desk_.ForgetCancelled();
+  desk_.Works(false);
+  EXPECT_THAT(Obeyed(NowOrder::kHome).detail, HasSubstr("is sent home by desk"));
+  EXPECT_FALSE(desk_.hold().cancelled) << "there is nothing to end";
+  desk_.Works(true);
+  desk_.Teaches(true);
+  EXPECT_THAT(Tell(NowOrder::kHome).detail, HasSubstr("teaches a route: end that first"));
+  desk_.Teaches(false);
+  (void)Obeyed(NowOrder::kPause);
+  EXPECT_THAT(Tell(NowOrder::kHome).detail, HasSubstr("resume it first"));
+  (void)Obeyed(NowOrder::kStop);
+  const NowAnswer refused = Tell(NowOrder::kHome);
+  EXPECT_TRUE(refused.refused);
+  EXPECT_THAT(refused.detail, HasSubstr("release it first"));
+  EXPECT_FALSE(desk_.hold().cancelled);
+}
+
 TEST_F(NowDeskTest, EndsWhatItTeachesAndNothingElse) {
   EXPECT_TRUE(Tell(NowOrder::kEnd).refused);
   desk_.Teaches(true);

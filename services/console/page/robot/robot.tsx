@@ -4,7 +4,7 @@ import { Copy } from '../copy';
 import { age } from '../fleet';
 import { Glance } from './glance';
 import { useMay } from '../me';
-import { Send } from './send';
+import { Send, Slide } from './send';
 import { Badge, mayMove } from './state';
 import { StopButton } from '../stop';
 import { Strip } from './strip';
@@ -13,7 +13,7 @@ import { Charts } from './trace';
 import { Vitals } from './vitals';
 
 export const labels: Record<Order, string> = {
-  pause: 'Pause', resume: 'Resume', cancel: 'Cancel mission', stop: 'Stop', release: 'Release', end: 'End',
+  pause: 'Pause', resume: 'Resume', cancel: 'Cancel mission', stop: 'Stop', release: 'Release', end: 'End', home: 'Go home',
 };
 
 // A robot takes so long to show what it has answered.
@@ -99,6 +99,7 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>
       {obeys && open === 'send' && may.send && <Send robot={robot.name} onAnswer={sent} />}
+      {obeys && open === 'send' && may.send && <Slide label={`Slide to send ${robot.name} home`} onDone={() => order('home')} />}
       {obeys && open === 'teach' && may.teach && <Teach robot={robot.name} onAnswer={sent} />}
       {looking && seesIt && robot.teaches && <Glance robot={robot} brief />}
       {obeys && robot.teaches && seen_ms === null && <Teaching robot={robot} onAnswer={say} />}

@@ -44,11 +44,12 @@ constexpr std::chrono::milliseconds kNotices{1000};
 constexpr std::size_t kMostBody = 64U << 10U;
 
 constexpr std::array kOrders{NowOrder::kPause, NowOrder::kResume,  NowOrder::kCancel,
-                             NowOrder::kStop,  NowOrder::kRelease, NowOrder::kEnd};
+                             NowOrder::kStop,  NowOrder::kRelease, NowOrder::kEnd,
+                             NowOrder::kHome};
 
 // What a robot stands after is obeyed whatever it comes with; what it may drive after is not.
 bool MakesStand(NowOrder order) {
-  return order != NowOrder::kResume && order != NowOrder::kRelease;
+  return order != NowOrder::kResume && order != NowOrder::kRelease && order != NowOrder::kHome;
 }
 
 // A robot that nobody has ever heard may be there all the same, and was told: it did not answer.
@@ -259,6 +260,9 @@ void Web::ServeOrders() {
   server_.PostWithAnyBody("/api/all/stop", [this](const Request& request, Response& response) {
     Tell(NowOrder::kStop, {NowWhom::kAll, ""}, request, response);
   });
+  server_.Post("/api/all/home", [this](const Request& request, Response& response) {
+    Tell(NowOrder::kHome, {NowWhom::kAll, ""}, request, response);
+  });
 }
 
 void Web::Tell(NowOrder order, const fleet::NowTarget& target, const Request& request,
@@ -273,9 +277,9 @@ void Web::Tell(NowOrder order, const fleet::NowTarget& target, const Request& re
   }
   commands_.Count(order, *words);
   if (target.whom == NowWhom::kAll) {
-    return Answer(
-        response, StatusOf(*words),
-        OneLine({{"robots", fleet::WordsJson(*words)}, {"text", fleet::StandText(*words)}}));
+    program::Json all{{"robots", fleet::WordsJson(*words)}};
+    if (order == NowOrder::kStop) all["text"] = fleet::StandText(*words);
+    return Answer(response, StatusOf(*words), OneLine(all));
   }
   Answer(response, StatusOf(*words), OneLine(fleet::WordJson(words->front())));
 }

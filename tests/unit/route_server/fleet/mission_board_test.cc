@@ -488,6 +488,93 @@ TEST_F(GoingToPlaces, OneWhosePlaceIsNotKnownByThenGoesNowhereAndTheRestIsHeld) 
   EXPECT_THAT(WaitsFor("m3"), HasSubstr("mission m2 did not arrive (refused)"));
 }
 
+class GoingHome : public GoingToPlaces {
+ protected:
+  void Answer(bool refused = false) {
+    Hear(exchange::NowAnswer{.agent = AgentId("robot1"),
+                             .client = AgentId("desk-p9"),
+                             .number = commands_,
+                             .refused = refused,
+                             .detail = "so"});
+  }
+  static constexpr const char* kHome = "home-0000000000000001";
+};
+
+TEST_F(GoingHome, ARobotThatHasObeyedIsSentThereAndItsQueueIsHeldUntilItIsToldToResume) {
+  Plan();
+  RobotIsThere();
+  Hear(For("m1"));
+  RobotSays("m1", 1, State::kUnderWay);
+  Hear(For("m2", "follow yard"));
+  (void)Say();
+  Tell(NowOrder::kHome, NowWhom::kAll, "");
+  Answer();
+  Answer();
+  EXPECT_FALSE(HandedOver()) << "it has not ended what it did";
+  RobotSays("m1", 2, State::kCancelled);
+  const auto home = HandedOver();
+  ASSERT_TRUE(home);
+  EXPECT_EQ(home->id, kHome);
+  EXPECT_EQ(home->orders, "goto home wait way") << "it is told the way from where it stands";
+  EXPECT_THAT(goals_, testing::ElementsAre("home"));
+  RobotSays(kHome, 1, State::kUnderWay);
+  RobotSays(kHome, 2, State::kArrived);
+  for (int restarts = 0; restarts < 2; ++restarts) {
+    EXPECT_FALSE(HandedOver()) << "it is home, and stays there";
+    EXPECT_THAT(WaitsFor("m2"), HasSubstr("sent home by desk on"));
+    Restart();
+    Plan();
+    RobotIsThere();
+  }
+  Tell(NowOrder::kResume);
+  EXPECT_EQ(HandedOver()->id, "m2");
+}
+
+TEST_F(GoingHome, OneThatDoesNotObeyIsSentNowhere) {
+  Plan();
+  RobotIsThere();
+  Tell(NowOrder::kHome);
+  Answer(true);
+  EXPECT_FALSE(HandedOver());
+  EXPECT_EQ(board_->unanswered(), 0U);
+}
+
+TEST_F(GoingHome, OneWhosePlaceIsNotKnownSaysSoInsteadOfGoing) {
+  Plan();
+  way_ = Fail(ErrorCode::kNotFound, "robot1 has not said where it stands");
+  RobotIsThere();
+  Answer();
+  Tell(NowOrder::kHome);
+  Answer();  // which may come before the command does
+  EXPECT_FALSE(HandedOver());
+  const Report last = LastOf(kHome);
+  EXPECT_EQ(last.state, State::kRefused);
+  EXPECT_EQ(last.detail, "robot1 has not said where it stands");
+}
+
+TEST_F(GoingHome, OneThatIsThereHasArrived) {
+  Plan();
+  way_ = false;
+  RobotIsThere();
+  Tell(NowOrder::kHome);
+  Answer();
+  EXPECT_FALSE(HandedOver());
+  EXPECT_EQ(StateOf(kHome), State::kArrived);
+}
+
+TEST_F(GoingHome, ItGoesBeforeItsQueueAlsoOverARestart) {
+  Plan();
+  Hear(For("m1", "follow yard"));
+  RobotIsThere(1, exchange::AgentHold::kPaused);
+  Tell(NowOrder::kHome);
+  Answer();
+  (void)Say();
+  Restart();
+  Plan();
+  RobotIsThere();
+  EXPECT_EQ(HandedOver()->id, kHome);
+}
+
 TEST_F(MissionBoardTest, WhatIsCancelledIsNotHandedOverLater) {
   Hear(For("m1"));
   Tell(NowOrder::kPause, NowWhom::kAll, "");
