@@ -282,12 +282,17 @@ TEST(RefreshViews, OneThatAFollowerAddedGoesAfterThreeVisitsInARowAndTheScoutsNe
 TEST(RefreshViews, ARouteWithOdometryKeepsItsBudget) {
   const std::vector<Segment> route = SampleRoute(1);
   const double is = static_cast<double>(BytesOf(route));
+  const auto with_all = Refresh(route, VisitByViews(route), WithRoom());
+  ASSERT_TRUE(with_all);
+  ASSERT_GT(with_all->views.added, 1);
+  const double view =
+      (static_cast<double>(BytesOf(with_all->segments)) - is) / with_all->views.added;
   RefreshOptions options;
-  options.most_bytes_per_m = (is + 600.0) / route[0].length_m;  // a view has about 450
+  options.most_bytes_per_m = (is + 1.5 * view) / route[0].length_m;
   const auto refreshed = Refresh(route, VisitByViews(route), options);
   ASSERT_TRUE(refreshed);
   EXPECT_EQ(refreshed->views.added, 1);
-  EXPECT_LE(static_cast<double>(BytesOf(refreshed->segments)), is + 600.0);
+  EXPECT_LE(static_cast<double>(BytesOf(refreshed->segments)), is + 1.5 * view);
 }
 
 TEST(RefreshViews, AVisitThatRecognisedLittleIsNotBelievedAndWhatItSaysOfFeaturesIs) {
