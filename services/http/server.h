@@ -47,8 +47,9 @@ struct Refusal {
 };
 
 // cpp-httplib's server on threads of its own, for clients that may be anybody. A connection has one
-// request, bounded in bytes and time, and silent clients give way to those that speak. All handlers
-// must be set before it listens.
+// request, bounded in bytes and time, and silent clients give way to those that speak. Handlers see
+// one form of each path: without the host, with single slashes, and with none at the end. A method
+// in lower case is taken, too. All handlers must be set before it listens.
 class Server final : public httplib::Server {
  public:
   // Called with each exception on the server's threads. Its client was answered with 500 or
@@ -67,7 +68,8 @@ class Server final : public httplib::Server {
 
   void Allow(Allowance allowance);
 
-  // Handles a POST that is obeyed whatever its body is. `handler` gets a request with the body if
+  // Handles a POST that is obeyed whatever its body is, and in upper case, too, but for the groups
+  // of the pattern. `handler` gets a request with the body if
   // all of it came within kHurry and Limits::body_bytes. A body that is too long, too late, cut off
   // or multipart is left out.
   static constexpr std::chrono::milliseconds kHurry{500};

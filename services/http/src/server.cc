@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <chrono>
 #include <exception>
+#include <string_view>
 #include <utility>
 
 #include "services/base/guarded.h"
@@ -30,6 +31,34 @@ std::string AddressOf(int socket) {
   int port = 0;
   Stream(socket).get_remote_ip_and_port(address, port);
   return AddressKey(address);
+}
+
+// Brings the path into its one form. An absolute address (RFC 9112, section 3.2.2) is split into
+// host and path; parts are divided by one slash, and none is at the end.
+void Canonicalize(httplib::Request& request) {
+  std::string path = request.path;
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (!Lower(path.substr(0, scheme.size())).starts_with(scheme)) continue;
+    const std::size_t slash = std::min(path.find('/', scheme.size()), path.size());
+    request.headers.erase("Host");
+    request.headers.emplace("Host", path.substr(scheme.size(), slash - scheme.size()));
+    path.erase(0, slash);
+  }
+  const auto both_slashes = [](char a, char b) { return a == '/' && b == '/'; };
+  path.erase(std::unique(path.begin(), path.end(), both_slashes), path.end());
+  if (path.size() > 1 && path.back() == '/') path.pop_back();
+  request.path = path.empty() ? "/" : path;
+}
+
+// Writes in lower case what is not a group of the pattern.
+std::string InLowerCase(const std::string& path, const std::smatch& match) {
+  std::string folded = Lower(path);
+  for (std::size_t i = 1; i < match.size(); ++i) {
+    if (!match[i].matched) continue;
+    const auto at = static_cast<std::size_t>(match.position(i));
+    folded.replace(at, match[i].str().size(), match[i].str());
+  }
+  return folded;
 }
 
 void RefuseInText(const Refusal& refusal, httplib::Response& response) {
@@ -99,7 +128,7 @@ const Allowance* Server::AllowanceOf(const httplib::Request& request) const {
 }
 
 void Server::PostWithAnyBody(const std::string& pattern, Handler handler) {
-  any_body_.emplace_back(pattern);
+  any_body_.emplace_back(pattern, std::regex::ECMAScript | std::regex::icase);
   Post(pattern, [this, handler = std::move(handler)](const httplib::Request& request,
                                                      httplib::Response& response,
                                                      const httplib::ContentReader& read) {
@@ -212,6 +241,13 @@ void Server::Answer(Stream& stream) {
     // Nobody needs parts of an answer, and a request of 8 kB can ask for the whole answer a
     // thousand times.
     request.ranges.clear();
+    Canonicalize(request);
+    for (const std::regex& pattern : any_body_) {
+      std::smatch match;
+      if (!std::regex_match(request.path, match, pattern)) continue;
+      request.path = InLowerCase(request.path, match);
+      break;
+    }
     const Allowance* allowance = AllowanceOf(request);
     const bool is_hurried = TakesAnyBody(request);
     const auto length = ParseNumber<std::uint64_t>(request.get_header_value("Content-Length"));

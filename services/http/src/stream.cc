@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "services/base/number.h"
 
@@ -60,6 +61,10 @@ ssize_t Stream::read(char* to, std::size_t size) {
   const std::size_t given = std::min(size, end_ - next_);
   std::copy_n(buffer_.begin() + static_cast<std::ptrdiff_t>(next_), given, to);
   next_ += given;
+  for (std::size_t i = 0; i < given && in_method_; ++i) {
+    in_method_ = to[i] != ' ';
+    to[i] = static_cast<char>(std::toupper(static_cast<unsigned char>(to[i])));
+  }
   if (awaited_bytes_ > 0 && given > 0) AwaitBody(awaited_bytes_ - std::min(awaited_bytes_, given));
   return static_cast<ssize_t>(given);
 }

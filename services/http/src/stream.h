@@ -13,7 +13,8 @@ namespace trailcast::http {
 
 // Carries one request of a client that may be anybody. It reads at most kMostBytes for at most
 // kPatience, whatever length the request announces, and waits at most kWritePatience in all for the
-// client to take its answer, unless more is allowed. The caller closes the socket.
+// client to take its answer, unless more is allowed. It reads the method in upper case, because
+// cpp-httplib refuses others. The caller closes the socket.
 class Stream : public httplib::Stream {
  public:
   // Room for a request: its body and as much again.
@@ -72,6 +73,7 @@ class Stream : public httplib::Stream {
   std::size_t next_ = 0;
   std::size_t end_ = 0;
   std::size_t came_ = 0;
+  bool in_method_ = true;  // the request's first word was not read to its end
 };
 
 }  // namespace trailcast::http

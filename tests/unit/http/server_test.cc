@@ -202,7 +202,7 @@ class AnyBodyTest : public testing::Test {
  protected:
   void SetUp() override {
     server_.PostWithAnyBody(
-        "/stop/([a-z]+)", [](const httplib::Request& request, httplib::Response& response) {
+        "/stop/([A-Za-z]+)", [](const httplib::Request& request, httplib::Response& response) {
           response.set_content(request.matches[1].str() + ":" + request.body + ".", "text/plain");
         });
     ASSERT_TRUE(server_.Listen("127.0.0.1", 0));
@@ -238,6 +238,56 @@ TEST_F(AnyBodyTest, ItIsObeyedAndGivenTheBodyIfThatCame) {
   EXPECT_THAT(Answer("Transfer-Encoding: gzip\r\n", "why"), EndsWith("robot:."));
   EXPECT_THAT(Answer("Content-Length: -3\r\n", "why"), EndsWith("robot:."));
   EXPECT_THAT(Answer("Content-Length: 1000000000000\r\n"), EndsWith("robot:."));
+}
+
+TEST_F(AnyBodyTest, ItIsObeyedHoweverItIsSpelled) {
+  for (const char* line :
+       {"POST /stop/Robot HTTP/1.1", "POST /stop/Robot/ HTTP/1.1", "POST //stop///Robot// HTTP/1.1",
+        "POST /STOP/Robot HTTP/1.1", "POST /sTop/%52obot/?why=rain HTTP/1.1",
+        "POST http://x/stop/Robot HTTP/1.1", "POST HTTP://x:80//Stop/Robot/ HTTP/1.1",
+        "post /stop/Robot HTTP/1.1", "Post /stop/Robot HTTP/1.0"}) {
+    for (const char* host : {"Host: x\r\n", ""}) {
+      const RawConnection client(server_.port());
+      client.Send(std::string(line) + "\r\n" + host + "\r\n");
+      EXPECT_THAT(client.ReceiveAll(), testing::EndsWith("Robot:.")) << line << " " << host;
+    }
+  }
+  const RawConnection client(server_.port());
+  client.Send("POST /stop/Robot HTTP/1.1\r\nExpect: 100-continue\r\nContent-Length: 3\r\n\r\nwhy");
+  EXPECT_THAT(client.ReceiveAll(), testing::EndsWith("Robot:why."));
+}
+
+TEST_F(HttpServerTest, HandlersSeeOneFormOfAPath) {
+  const auto answer = [this](const std::string& line) {
+    const RawConnection client(server_.port());
+    client.Send(line + " HTTP/1.1\r\nHost: x\r\n\r\n");
+    return client.ReceiveAll();
+  };
+  for (const char* line :
+       {"GET /hello/", "GET //hello", "GET http://x/hello", "get /hello?a=/b/"}) {
+    EXPECT_THAT(answer(line), testing::EndsWith("hello")) << line;
+  }
+  for (const char* line : {"GET /Hello", "GET /", "GET http://x", "GET hello"}) {
+    EXPECT_THAT(answer(line), HasSubstr("404")) << line;
+  }
+}
+
+TEST_F(HttpServerTest, AnAddressThatNamesTheHostIsJudgedByThatHost) {
+  std::string judged;
+  Server judging({.threads = 2, .body_bytes = 100}, Complain);
+  judging.JudgeBy(
+      [&](const httplib::Request& request) {
+        judged = request.get_header_value("Host");
+        return Refusal{403, "no"};
+      },
+      [](const Refusal& refusal, httplib::Response& response) {
+        response.status = refusal.status;
+      });
+  ASSERT_TRUE(judging.Listen("127.0.0.1", 0));
+  const RawConnection client(judging.port());
+  client.Send("GET http://evil.example:80/hello HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_THAT(client.ReceiveAll(), HasSubstr("403"));
+  EXPECT_EQ(judged, "evil.example:80");
 }
 
 TEST_F(AnyBodyTest, ItIsObeyedWithoutABodyThatDoesNotCome) {

@@ -92,6 +92,19 @@ std::optional<http::Refusal> JudgeMethod(const Request& request) {
   return http::Refusal{405, fmt::format("{} takes {}, not {}", request.path, methods, method)};
 }
 
+// Says why the server refused a request that no handler has seen.
+const char* WhyRefused(int status) {
+  switch (status) {
+    case 400:
+      return "this is no request of HTTP/1.1: it begins with METHOD PATH HTTP/1.1, and each line "
+             "ends with CR LF";
+    case 414:
+      return "the address is too long";
+    default:
+      return "not found";
+  }
+}
+
 }  // namespace
 
 Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join, Runs* runs)
@@ -114,7 +127,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   server_.set_default_headers(std::move(headers));
   server_.set_error_handler([](const Request& request, Response& response) {
     if (response.status == 405) response.set_header("Allow", MethodsOf(request.path));
-    if (response.body.empty()) Refuse(response, response.status, "not found");
+    if (response.body.empty()) Refuse(response, response.status, WhyRefused(response.status));
   });
   server_.JudgeBy(
       [this](const Request& request) {
