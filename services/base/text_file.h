@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <istream>
 #include <string>
 
 #include "services/base/result.h"
@@ -11,7 +12,10 @@ namespace trailcast {
 // result, and a byte order mark at the beginning is dropped. Errors: kNotFound, kUnavailable for a
 // file that cannot be read, kInvalidArgument for one that is no UTF-8 text; they name the file.
 [[nodiscard]] Result<std::string> ReadTextFile(const std::filesystem::path& file);
-// Does the same with bytes that were read already; the error names no file.
+// Does the same with a stream, of which it reads no more than needed to tell that it is no text
+// (as of /dev/zero). The error names no file.
+[[nodiscard]] Result<std::string> ReadText(std::istream& stream);
+// Does the same with bytes that were read already.
 [[nodiscard]] Result<std::string> PlainText(std::string bytes);
 
 // Replaces the file's contents. The error names the file.

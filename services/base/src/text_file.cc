@@ -9,7 +9,11 @@
 namespace trailcast {
 
 Result<std::string> PlainText(std::string bytes) {
+  using namespace std::string_view_literals;
   const std::string_view view(bytes);
+  if (view.starts_with("\xFF\xFE\0\0"sv) || view.starts_with("\0\0\xFE\xFF"sv)) {
+    return Fail(ErrorCode::kInvalidArgument, "it is written in UTF-32: save it as UTF-8");
+  }
   if (view.starts_with("\xFF\xFE") || view.starts_with("\xFE\xFF")) {
     return Fail(ErrorCode::kInvalidArgument,
                 "it is written in UTF-16: save it as UTF-8 (spreadsheets call it 'CSV UTF-8')");
@@ -34,19 +38,25 @@ Result<std::string> ReadTextFile(const std::filesystem::path& file) {
     return Fail(error == ENOENT ? ErrorCode::kNotFound : ErrorCode::kUnavailable,
                 "cannot read {}: {}", file.string(), std::generic_category().message(error));
   }
-  std::string bytes;
-  std::array<char, 1 << 16> part{};
-  do {
-    stream.read(part.data(), part.size());
-    bytes.append(part.data(), static_cast<std::size_t>(stream.gcount()));
-  } while (stream);
-  if (stream.bad()) {
-    return Fail(ErrorCode::kUnavailable, "cannot read {}: is it a file, and its disk well?",
-                file.string());
-  }
-  auto text = PlainText(std::move(bytes));
+  auto text = ReadText(stream);
   if (!text) return Wrap(text.error(), file.string());
   return text;
+}
+
+Result<std::string> ReadText(std::istream& stream) {
+  std::string bytes;
+  std::array<char, 1 << 16> part{};
+  bool is_text = true;
+  do {
+    stream.read(part.data(), part.size());
+    const std::string_view got(part.data(), static_cast<std::size_t>(stream.gcount()));
+    bytes += got;
+    is_text = got.find('\0') == std::string_view::npos;
+  } while (stream && is_text);
+  if (stream.bad()) {
+    return Fail(ErrorCode::kUnavailable, "it cannot be read: is it a file, and its disk well?");
+  }
+  return PlainText(std::move(bytes));
 }
 
 Result<void> WriteTextFile(const std::filesystem::path& file, const std::string& text) {

@@ -64,7 +64,7 @@ constexpr std::uint64_t kMostPixels = 100'000'000;
 Result<cv::Mat> DecodeBytes(const std::vector<std::uint8_t>& bytes, const std::string& name,
                             int flags) {
   if (const std::uint64_t pixels = PromisedPixels(bytes); pixels > kMostPixels) {
-    return Fail(ErrorCode::kInvalidArgument,
+    return Fail(ErrorCode::kCorrupt,
                 "the picture {} says that it has {} pixels; at most {} are read: make it smaller",
                 name, pixels, kMostPixels);
   }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -58,7 +57,7 @@ class Keys {
 }  // namespace
 
 std::vector<CLI::ConfigItem> Toml::from_config(std::istream& input) const {
-  const auto text = PlainText({std::istreambuf_iterator<char>(input), {}});
+  const auto text = ReadText(input);
   if (!text)
     throw CLI::ConfigError("the configuration file cannot be read: " + text.error().message);
   std::istringstream plain(*text);

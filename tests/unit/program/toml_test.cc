@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <sstream>
 #include <string>
 
@@ -54,6 +55,12 @@ TEST(Toml, AFileInUtf16IsRefusedByName) {
       "1\0",
       8);
   EXPECT_THAT(ErrorOf(wide), HasSubstr("UTF-16"));
+  EXPECT_THAT(ErrorOf(std::string("\xFF\xFE\0\0n\0\0\0", 8)), HasSubstr("UTF-32"));
+}
+
+TEST(Toml, AFileWithoutEndIsNotReadToIt) {
+  std::ifstream endless("/dev/zero");
+  EXPECT_THROW((void)Toml().from_config(endless), CLI::ConfigError);
 }
 
 }  // namespace
