@@ -1,4 +1,4 @@
-#include "services/console/src/api/runs_api.h"
+#include "services/console/src/api/runs/runs_api.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "services/console/parameters.h"
 #include "services/console/src/api/answers.h"
 #include "services/console/src/api/incoming_file.h"
-#include "services/console/src/api/run_body.h"
+#include "services/console/src/api/runs/run_body.h"
 #include "services/program/json.h"
 
 namespace trailcast::console {

@@ -1,4 +1,4 @@
-#include "services/console/src/api/transfers_api.h"
+#include "services/console/src/api/routes/transfers_api.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "services/console/src/api/run_body.h"
+#include "services/console/src/api/runs/run_body.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "services/console/src/api/where_api.h"
+#include "services/console/src/api/routes/where_api.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "services/console/src/api/routes_api.h"
+#include "services/console/src/api/routes/routes_api.h"
 
 #include <utility>
 
