@@ -13,13 +13,19 @@ namespace {
 // machine it takes a tenth of that; the rest is for machines at work on other things.
 constexpr std::chrono::seconds kRecoverWithin{120};
 
+// Longer than the server keeps what was retired.
+constexpr std::chrono::hours kClockStep{40 * 24};
+
 constexpr std::array kTypes{
     FaultType{FaultKind::kKill, Role::kServer},     FaultType{FaultKind::kKill, Role::kScout},
     FaultType{FaultKind::kKill, Role::kFollower},   FaultType{FaultKind::kCut, Role::kServer},
     FaultType{FaultKind::kCut, Role::kScout},       FaultType{FaultKind::kCut, Role::kFollower},
     FaultType{FaultKind::kPause, Role::kServer},    FaultType{FaultKind::kPause, Role::kScout},
     FaultType{FaultKind::kPause, Role::kFollower},  FaultType{FaultKind::kLoss, Role::kServer},
-    FaultType{FaultKind::kFullDisk, Role::kServer},
+    FaultType{FaultKind::kFullDisk, Role::kServer}, FaultType{FaultKind::kAddress, Role::kServer},
+    FaultType{FaultKind::kAddress, Role::kScout},   FaultType{FaultKind::kAddress, Role::kFollower},
+    FaultType{FaultKind::kClock, Role::kServer},    FaultType{FaultKind::kClock, Role::kScout},
+    FaultType{FaultKind::kClock, Role::kFollower},
 };
 
 // How long each lasts. The lease of a DDS participant, 10 s, lies within those of cuts and pauses.
@@ -39,6 +45,10 @@ Span SpanOf(FaultKind kind) {
       return {5.0, 15.0};
     case FaultKind::kFullDisk:
       return {3.0, 8.0};
+    case FaultKind::kAddress:
+      return {1.0, 8.0};
+    case FaultKind::kClock:
+      return {3.0, 15.0};
   }
   return {};
 }
@@ -59,6 +69,10 @@ std::string FaultType::Text() const {
       return "packets lost everywhere";
     case FaultKind::kFullDisk:
       return "server's disk full";
+    case FaultKind::kAddress:
+      return fmt::format("{} given another address", who);
+    case FaultKind::kClock:
+      return fmt::format("{}'s clock stepped, and stepped back", who);
   }
   return "";
 }
@@ -105,6 +119,7 @@ void Faults::Begin(Clock::time_point now) {
   victim_ = running.at(static_cast<std::size_t>(share * static_cast<double>(running.size())));
   constexpr double kLeastLoss = 0.05;
   constexpr double kMoreLoss = 0.15;
+  constexpr double kForward = 0.5;
   switch (fault_.kind) {
     case FaultKind::kKill:
       victim_->Kill();
@@ -121,6 +136,12 @@ void Faults::Begin(Clock::time_point now) {
       break;
     case FaultKind::kFullDisk:
       fleet_.FillDisk();
+      break;
+    case FaultKind::kAddress:
+      victim_->LoseAddress();
+      break;
+    case FaultKind::kClock:
+      victim_->SetClockAhead(share < kForward ? kClockStep : -kClockStep);
       break;
   }
   stage_ = Stage::kWrong;
@@ -144,6 +165,12 @@ void Faults::Mend(Clock::time_point now) {
       break;
     case FaultKind::kFullDisk:
       fleet_.ClearDisk();
+      break;
+    case FaultKind::kAddress:
+      victim_->TakeOtherAddress();
+      break;
+    case FaultKind::kClock:
+      victim_->SetClockAhead(std::chrono::hours(0));
       break;
   }
   stage_ = Stage::kRecovering;

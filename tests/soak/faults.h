@@ -14,7 +14,7 @@
 
 namespace trailcast::soak {
 
-enum class FaultKind { kKill, kCut, kPause, kLoss, kFullDisk };
+enum class FaultKind { kKill, kCut, kPause, kLoss, kFullDisk, kAddress, kClock };
 
 struct FaultType {
   FaultKind kind;

@@ -8,7 +8,7 @@
 namespace trailcast::soak {
 namespace {
 
-constexpr int kTypes = 11;
+constexpr int kTypes = 17;
 constexpr auto kAny = [](const FaultType&) { return true; };
 
 std::vector<std::string> Draw(std::uint64_t seed, int count) {

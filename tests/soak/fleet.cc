@@ -37,7 +37,7 @@ Fleet::Fleet(test::NetworkLab& lab, const std::filesystem::path& folder, std::fi
 }
 
 void Fleet::StartServer() {
-  server_.Start("trailcast-server", {"--store", ServersStore().string()});
+  server_.Start("trailcast-server", {"--store", ServersStore().string(), "--keep-days", "30"});
 }
 
 void Fleet::Begin(const Errand& errand) {

@@ -4,17 +4,47 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <fstream>
 #include <utility>
 
 namespace trailcast::soak {
 
 Member::Member(test::NetworkLab& lab, int host, std::string name, std::filesystem::path folder)
-    : lab_(lab), host_(host), name_(std::move(name)), folder_(std::move(folder)) {
+    : lab_(lab), host_(host), address_(host), name_(std::move(name)), folder_(std::move(folder)) {
   lab_.AddHost(host_);
+  SetClockAhead(std::chrono::seconds(0));
 }
 
+void Member::LoseAddress() { lab_.TakeAddress(host_, address_); }
+
+void Member::TakeOtherAddress() {
+  constexpr int kOther = 100;
+  address_ = address_ == host_ ? host_ + kOther : host_;
+  lab_.GiveAddress(host_, address_);
+}
+
+void Member::SetClockAhead(std::chrono::seconds by) const {
+  // libfaketime looks at the file each second, and a file that is half written would stop it.
+  const std::filesystem::path file = ClockFile();
+  const std::filesystem::path next = file.string() + ".new";
+  std::ofstream(next) << fmt::format("{:+}s\n", by.count());
+  std::filesystem::rename(next, file);
+}
+
+std::filesystem::path Member::ClockFile() const { return folder_ / (name_ + ".clock"); }
+
 void Member::Start(const std::string& program, const Words& words) {
-  Words all{ProgramsDir() + "/" + program, "--network-interface", "eth0", "--name", name_};
+  Words all{"/usr/bin/env",
+            fmt::format("LD_PRELOAD={}", kClockLibrary),
+            "FAKETIME_TIMESTAMP_FILE=" + ClockFile().string(),
+            "FAKETIME_CACHE_DURATION=1",
+            "FAKETIME_DONT_FAKE_MONOTONIC=1",
+            "NO_FAKE_STAT=1",
+            ProgramsDir() + "/" + program,
+            "--network-interface",
+            "eth0",
+            "--name",
+            name_};
   all.insert(all.end(), words.begin(), words.end());
   // The log before the last is of no use any more.
   std::filesystem::remove(folder_ / fmt::format("{}-{}.log", name_, starts_ - 2));

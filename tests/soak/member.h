@@ -15,6 +15,10 @@ namespace trailcast::soak {
 using Clock = std::chrono::steady_clock;
 using Words = std::vector<std::string>;
 
+// Gives the programs clocks that can be stepped (package libfaketime).
+inline constexpr const char* kClockLibrary =
+    "/usr/lib/x86_64-linux-gnu/faketime/libfaketimeMT.so.1";
+
 // One program at a host of its own: started, killed and started again.
 class Member {
  public:
@@ -33,6 +37,11 @@ class Member {
   [[nodiscard]] std::optional<int> TakeEnded();
   // Ended as asked, with what status; nothing if not within the bound.
   [[nodiscard]] std::optional<int> Stop();
+  // Takes the host's address away; another one comes later.
+  void LoseAddress();
+  void TakeOtherAddress();
+  // Steps the wall clock of the host's programs, not the time by which they wait.
+  void SetClockAhead(std::chrono::seconds by) const;
   void Signal(int signal) const { process_->Signal(signal); }
   [[nodiscard]] pid_t pid() const { return process_->pid(); }
 
@@ -46,8 +55,11 @@ class Member {
   [[nodiscard]] std::string LastWords() const;
 
  private:
+  [[nodiscard]] std::filesystem::path ClockFile() const;
+
   test::NetworkLab& lab_;
   int host_;
+  int address_;
   std::string name_;
   std::filesystem::path folder_;
   int starts_ = 0;
