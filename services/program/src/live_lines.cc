@@ -10,11 +10,27 @@
 namespace trailcast::program {
 namespace {
 
-// Lines are cut to the terminal's width, because a line that wraps would break the redrawing.
-std::size_t TerminalWidth(int descriptor) {
+struct Terminal {
+  std::size_t width = 80;
+  std::size_t height = 24;
+};
+
+Terminal TerminalOf(int descriptor) {
   winsize size{};
-  if (ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
-  return size.ws_col;
+  if (ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return {};
+  return {size.ws_col, std::max<std::size_t>(size.ws_row, 2)};
+}
+
+// Returns the lines that fit on the terminal, because a line that wraps or scrolls away would break
+// the redrawing. The cursor has the last one.
+std::vector<std::string> Fitting(std::vector<std::string> lines, const Terminal& terminal) {
+  if (lines.size() > terminal.height - 1) {
+    const std::size_t left_out = lines.size() - (terminal.height - 2);
+    lines.resize(terminal.height - 2);
+    lines.push_back(fmt::format("... {} more lines: the window is too low for them", left_out));
+  }
+  for (std::string& line : lines) line.resize(std::min(line.size(), terminal.width - 1));
+  return lines;
 }
 
 }  // namespace
@@ -35,10 +51,10 @@ void LiveLines::Show(const std::vector<std::string>& lines, bool now) {
   std::string text;
   if (terminal_) {
     if (drawn_ > 0) text += fmt::format("\033[{}A", drawn_);
-    const std::size_t width = TerminalWidth(fileno(out_));
-    for (const std::string& line : lines)
-      text += fmt::format("\r{}\033[K\n", line.substr(0, width - 1));
-    drawn_ = lines.size();
+    const auto fitting = Fitting(lines, TerminalOf(fileno(out_)));
+    for (const std::string& line : fitting) text += fmt::format("\r{}\033[K\n", line);
+    text += "\033[J";  // what was drawn below
+    drawn_ = fitting.size();
   } else {
     const auto time = std::chrono::steady_clock::now();
     if (!now && time < next_plain_) return;

@@ -44,6 +44,10 @@ TEST_F(NowTest, APausedRobotStandsAndGoesOnWhenItIsToldTo) {
   EXPECT_TRUE(Stands("truth.csv"));
   const double at_m = Along_m("truth.csv");
   EXPECT_LT(at_m, 4.3) << "of 4.5 m";
+  const auto watch = Start("trailcast", {"fleet", "--watch", "--json"}, "watch");
+  EXPECT_TRUE(watch->WaitForOutput("\"hold\":\"paused\"")) << watch->output();
+  watch->Signal(SIGINT);
+  EXPECT_EQ(End(*watch).status, 0) << watch->output();
   const Ended resumed = Tell("resume", {"--all"});
   EXPECT_EQ(resumed.status, 0) << resumed.output;
   const Ended followed = End(*follower_);
