@@ -1,6 +1,7 @@
 import { useCallback, useEffect, useRef, useState } from 'react';
 import { createRoot } from 'react-dom/client';
 import { AlertBar, unacknowledged } from './alerts/alerts';
+import { NoticeChoice, useNotices } from './alerts/notices';
 import { stopAll, stopOne, tell, type Order, type Robot, type StopAnswer } from './api';
 import { remember } from './doubts';
 import { age, useFleet } from './fleet';
@@ -97,6 +98,7 @@ function Page() {
   useEffect(() => {
     document.title = `${lost ? '⚠ Connection lost' : `${told > 0 ? `(${told}) ` : ''}${shown}`} – Trailcast`;
   }, [told, lost, shown]);
+  useNotices(alerts, settled, lost);
   const servers = fleet?.servers ?? [];
   const lost_ms = lost ? heard_ms : null;
   const onStopAll = useCallback(async () => {
@@ -159,6 +161,7 @@ function Page() {
           Stop holds the robot, even after a restart, until it is released. <strong>Not an emergency
           stop:</strong> a robot that is out of reach drives on. Use the red button on the robot.
         </p>
+        <NoticeChoice />
         <p>
           {servers.map((server) => (
             <span key={server.name}>

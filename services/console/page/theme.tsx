@@ -1,4 +1,5 @@
 import { useState } from 'react';
+import { keep, kept } from './kept';
 
 const kKept = 'trailcast-theme';
 const themes = { system: 'Auto', light: 'Light', dark: 'Dark' };
@@ -6,14 +7,7 @@ type Theme = keyof typeof themes;
 
 const dark = window.matchMedia('(prefers-color-scheme: dark)');
 
-function kept(): Theme {
-  try {
-    const theme = window.localStorage.getItem(kKept) ?? '';
-    return theme in themes ? (theme as Theme) : 'system';
-  } catch {
-    return 'system';  // nothing is kept in this browser
-  }
-}
+const chosen = () => kept<Theme>(kKept, themes, 'system');
 
 function show(theme: Theme) {
   const isDark = theme === 'dark' || (theme === 'system' && dark.matches);
@@ -21,20 +15,16 @@ function show(theme: Theme) {
 }
 
 // Before anything is drawn, and as the system changes.
-show(kept());
-dark.addEventListener('change', () => show(kept()));
+show(chosen());
+dark.addEventListener('change', () => show(chosen()));
 
 export function choose(theme: Theme) {
-  try {
-    window.localStorage.setItem(kKept, theme);
-  } catch {
-    // It is so until the page is loaded again.
-  }
+  keep(kKept, theme);
   show(theme);
 }
 
 export function ThemeChoice() {
-  const [theme, setTheme] = useState(kept);
+  const [theme, setTheme] = useState(chosen);
   return (
     <label className="theme" title="Colours: as the system has them, light or dark">
       <span className="hidden">Colours</span>

@@ -287,6 +287,17 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   EXPECT_EQ(Post("/api/robots/robot1/resume").status, 200);
   ASSERT_TRUE(WaitForState("driving")) << State().dump(2);
 
+  // The browser's own notifications and tones are not heard here.
+  (void)browser.Run(
+      "window.called = [];"
+      "window.Notification = class { constructor(title) { window.called.push(title); } };"
+      "window.Notification.permission = 'granted';"
+      "window.Notification.requestPermission = async () => 'granted';"
+      "window.AudioContext = class { constructor() { window.called.push('tone');"
+      "  throw new Error('there are no loudspeakers'); } };"
+      "document.hasFocus = () => false;");
+  ASSERT_TRUE(browser.Click("//footer//option[. = 'a sound and a notification']"));
+
   agent_->Signal(SIGKILL);
   ASSERT_TRUE(browser.WaitForText("Offline")) << browser.Text();
   const Replied silent = Post("/api/all/stop");
@@ -300,6 +311,11 @@ TEST_F(ConsoleTest, APersonSeesARobotSendsItAndStopsItInABrowser) {
   EXPECT_THAT(stop_all.output, HasSubstr("robot1: did not answer: last known on its mission"));
   EXPECT_THAT(browser.Text(), AllOf(HasSubstr("Last seen"), HasSubstr("Needs attention")));
   ASSERT_TRUE(browser.WaitForText("Offline in the middle of its mission")) << browser.Text();
+  const auto called = [&] { return browser.Run("return window.called").dump(); };
+  EXPECT_TRUE(WaitUntil([&] {
+    return called().find("robot1: Offline in the middle of its mission") != std::string::npos;
+  })) << called();
+  EXPECT_THAT(called(), HasSubstr("tone"));
   const auto title = [&] { return browser.Run("return document.title").dump(); };
   EXPECT_TRUE(WaitUntil([&] { return title().starts_with("\"(2) "); })) << title();
   ASSERT_TRUE(browser.Click("//li[contains(., 'Offline in the middle')]/button"));
