@@ -187,9 +187,8 @@ TEST_F(ConsoleRoutesTest, APictureThatIsChosenOrDroppedTellsWhereItWasTaken) {
 
 TEST_F(ConsoleRoutesTest, APersonSeesWhoWasSentWhereAndWhoToldWhomWhat) {
   // The robot is out of reach: a server keeps what it is sent to do.
-  ASSERT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall laps 2"}, {"id", "trip"}})
-                .status,
-            200);
+  const json trip{{"orders", "follow hall laps 2"}, {"id", "trip"}, {"unheard", true}};
+  ASSERT_EQ(Post("/api/robots/robot1/missions", trip).status, 200);
   EXPECT_EQ(Post("/api/robots/robot1/stop", {{"reason", "wet floor"}}).status, 504);
   Open("history");
   ASSERT_TRUE(browser_->WaitForText("follow hall laps 2")) << browser_->Text();

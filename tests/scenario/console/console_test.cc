@@ -214,7 +214,7 @@ TEST_F(ConsoleTest, APersonQueuesAMissionSeesWhatItWaitsForAndResumesTheQueueInA
   ASSERT_TRUE(browser.WaitForText("Slide to send robot1 along hall")) << browser.Text();
   ASSERT_TRUE(browser.Type("//input[@type='range']", kSlide));
   ASSERT_TRUE(browser.WaitForText("waits: it does mission now: wait 600")) << browser.Text();
-  EXPECT_EQ(Robot1()["queue"].size(), 1U);
+  EXPECT_TRUE(WaitUntil([&] { return Robot1()["queue"].size() == 1U; })) << State().dump(2);
   browser.Screenshot(Shot("phone-queue"));
 
   agent_->Signal(SIGKILL);
@@ -224,7 +224,7 @@ TEST_F(ConsoleTest, APersonQueuesAMissionSeesWhatItWaitsForAndResumesTheQueueInA
   ASSERT_TRUE(browser.WaitForText("mission now did not arrive (failed)")) << browser.Text();
   ASSERT_TRUE(browser.Click("//article//button[. = 'Resume']")) << browser.Text();
   ASSERT_TRUE(browser.WaitForText("Driving")) << browser.Text() << agent_->output();
-  EXPECT_EQ(Robot1()["queue"].size(), 0U);
+  EXPECT_TRUE(WaitUntil([&] { return Robot1()["queue"].empty(); })) << State().dump(2);
   ASSERT_TRUE(browser.Click("//article//button[. = 'Cancel mission']")) << browser.Text();
   ASSERT_TRUE(WaitUntil([&] { return Robot1()["mission"].is_null(); })) << State().dump(2);
 }
