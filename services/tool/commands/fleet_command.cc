@@ -47,10 +47,10 @@ std::vector<std::string> LinesOf(const fleet::RobotsThere& robots) {
 }
 
 // Shows what is known a second after it has begun and each second from then on.
-class Watch {
+class FleetWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  Watch(bool json, Time now) : json_(json), next_(now + kEvery) {}
+  FleetWatch(bool json, Time now) : json_(json), next_(now + kEvery) {}
 
   void Look(const fleet::RobotsThere& robots, Time now) {
     if (now < next_) return;
@@ -81,7 +81,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const FleetOp
   newest.query.page_size = exchange::kMaxMissionsPerReply;
   fleet::MissionQuestion question(std::move(newest));
   auto now = std::chrono::steady_clock::now();
-  Watch watch(options.json, now);
+  FleetWatch watch(options.json, now);
   const auto until = now + ToMilliseconds(options.listen_s);
   for (; (options.watch || now < until) && !program::StopSignal::requested();
        now = std::chrono::steady_clock::now()) {
