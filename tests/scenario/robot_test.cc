@@ -183,7 +183,7 @@ TEST_F(RobotTest, ARosDomainInTheEnvironmentAsksForNoRobot) {
 
 TEST_F(RobotTest, FaultsAreNamedWhenOneIsNotUnderstood) {
   for (const char* fault : {"camera-burns@3", "base-stops", "base-stops@", "base-stops@-1"}) {
-    const auto robot = Robot("robot1", {"--fail", fault});
+    const auto robot = BeginRobot("robot1", {"--fail", fault});
     EXPECT_EQ(End(*robot).status, 2) << fault;
     EXPECT_THAT(robot->output(), HasSubstr("expected one of camera-freezes"));
   }

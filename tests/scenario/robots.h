@@ -26,15 +26,19 @@ class RobotsTest : public ProgramsTest {
   // Where a robot stands, and the path that a scout is driven along.
   static constexpr const char* kPath = "1,1.5\n4.5,1.5\n";
 
-  std::unique_ptr<Process> Robot(const std::string& name, const Words& words,
-                                 const std::string& path = kPath) {
+  std::unique_ptr<Process> BeginRobot(const std::string& name, const Words& words,
+                                      const std::string& path = kPath) {
     const std::string file = Path(name + "-path.csv");
     std::ofstream(file) << "x_m,y_m\n" << path;
-    auto robot = Start("trailcast",
-                       With({"robot", "--sim", "indoor", "--path", file, "--ros2", "/" + name,
-                             "--ros-domain", "3", "--ros-dds-tag", tag_},
-                            words),
-                       name);
+    return Start("trailcast",
+                 With({"robot", "--sim", "indoor", "--path", file, "--ros2", "/" + name,
+                       "--ros-domain", "3", "--ros-dds-tag", tag_},
+                      words),
+                 name);
+  }
+  std::unique_ptr<Process> Robot(const std::string& name, const Words& words,
+                                 const std::string& path = kPath) {
+    auto robot = BeginRobot(name, words, path);
     // An agent that hears nothing for ten seconds gives the robot up.
     EXPECT_TRUE(robot->WaitForOutput("/image_raw, in ")) << robot->output();
     return robot;
