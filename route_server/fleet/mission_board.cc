@@ -605,7 +605,7 @@ void MissionBoard::Drop(mission::State state, const Why& why, std::int64_t now_u
     return;
   }
   for (auto& [agent, missions] : unanswered_) {
-    std::erase_if(missions, [&](const Waiting& record) {
+    std::erase_if(missions, [&, &agent = agent](const Waiting& record) {
       const auto reason = why(record);
       if (reason) {
         changed_.insert(agent);
