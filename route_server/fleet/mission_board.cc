@@ -662,8 +662,8 @@ void MissionBoard::Agree(Time now) {
   }
 }
 
-// What counts is the time for which a robot could have taken a mission and was not heard, or did
-// not answer. A robot that is out of reach with a mission is given as long as any.
+// Counts the time for which a robot could have taken a mission and was not heard, or did not
+// answer. A robot that is out of reach with a mission is given as long as any.
 void MissionBoard::Expire(Time now, std::int64_t now_unix_ms) {
   for (auto& [agent, queue] : unanswered_) {
     const bool is_heard = heard_.Find(agent) != nullptr;

@@ -24,7 +24,7 @@ namespace trailcast::dds {
 class Membership {
  public:
   using Clock = std::chrono::steady_clock;
-  // What the exchange does meanwhile.
+  // These are the exchange's part.
   struct Hooks {
     std::function<Result<void>()> joined;  // opens what it listens to
     std::function<void()> says_good_bye;   // the way to the others is still there

@@ -297,7 +297,7 @@ Result<Listing> Look(fleet::OperatorPeer& peer, const MissionsOptions& options) 
   return listed(*missions, fleet::MissionsTable, fleet::MissionsJson);
 }
 
-// Asks how long routes are. Of several routes of one name it is the one that robots follow.
+// Asks how long routes are. A name that several routes have means the one that robots follow.
 Result<std::map<std::string, double>> Measure(fleet::OperatorPeer& peer,
                                               const std::set<std::string>& routes,
                                               std::chrono::milliseconds timeout) {
