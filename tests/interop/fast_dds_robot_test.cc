@@ -14,6 +14,8 @@ using testing::HasSubstr;
 
 constexpr const char* kDomain = "7";  // of a computer of its own
 constexpr int kHost = 1;
+constexpr int kOtherHost = 2;
+constexpr double kLost = 0.05;
 constexpr int kWidth = 160;
 constexpr int kHeight = 120;
 constexpr int kPictures = 120;
@@ -28,6 +30,11 @@ class FastDdsRobot : public ProgramsTest, public testing::WithParamInterface<con
     }
     lab_.emplace();
     lab_->AddHost(kHost);
+    if (Loses()) {
+      lab_->AddHost(kOtherHost);
+      lab_->Lose(kHost, kLost);
+      lab_->Lose(kOtherHost, kLost);
+    }
     std::ofstream film(Path("film"), std::ios::binary);
     for (int i = 0; i < kPictures; ++i) {
       const image::GrayImage picture = WalkFrame(i, kWidth, kHeight);
@@ -37,19 +44,22 @@ class FastDdsRobot : public ProgramsTest, public testing::WithParamInterface<con
   }
   // Data, which has to be of a fixed size.
   [[nodiscard]] static bool Shares() { return GetParam() == std::string("data-sharing"); }
+  // The agent runs on another computer, and either loses a part of the packets for it.
+  [[nodiscard]] static bool Loses() { return GetParam() == std::string("loss"); }
   std::unique_ptr<Process> Robot(const std::string& does) {
     return std::make_unique<Process>(
-        lab_->At(kHost, {kFastDdsRobot, kDomain, GetParam(), Path("film"), std::to_string(kWidth),
-                         std::to_string(kHeight), does}),
+        lab_->At(kHost, {kFastDdsRobot, kDomain, Loses() ? "default" : GetParam(), Path("film"),
+                         std::to_string(kWidth), std::to_string(kHeight), does}),
         Path("robot-" + does + ".log"));
   }
   Ended RunAgentOfRobot(const std::string& command, const Words& words) {
-    Process agent(lab_->At(kHost, With({ProgramsDir() + "/trailcast-agent", command, "--ros2",
-                                        "/robot1", "--ros-domain", kDomain, "--route", "hall",
-                                        "--store", Path("routes.db"), "--cmd-vel-type",
-                                        Shares() ? "twist" : "twist_stamped"},
-                                       words)),
-                  Path(command + ".log"));
+    Process agent(
+        lab_->At(Loses() ? kOtherHost : kHost,
+                 With({ProgramsDir() + "/trailcast-agent", command, "--ros2", "/robot1",
+                       "--ros-domain", kDomain, "--route", "hall", "--store", Path("routes.db"),
+                       "--cmd-vel-type", Shares() ? "twist" : "twist_stamped"},
+                      words)),
+        Path(command + ".log"));
     return End(agent);
   }
 
@@ -58,7 +68,7 @@ class FastDdsRobot : public ProgramsTest, public testing::WithParamInterface<con
 
 INSTANTIATE_TEST_SUITE_P(Settings, FastDdsRobot,
                          testing::Values("default", "localhost-only", "localhost-range",
-                                         "data-sharing"),
+                                         "data-sharing", "loss"),
                          [](const auto& param) {
                            std::string name = param.param;
                            std::replace(name.begin(), name.end(), '-', '_');
