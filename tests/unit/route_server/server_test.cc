@@ -350,7 +350,7 @@ TEST_F(MissionsTest, AServerThatKeepsNoneSaysSo) {
   }));
 }
 
-TEST_F(MissionsTest, ThatWaitForTheirTurnAreVoidedByAStopToo) {
+TEST_F(MissionsTest, ThatWaitForTheirTurnAreMeantByACancellationToo) {
   Start({}, {}, folder_ / "missions");
   // These are slow, and before it.
   for (std::uint64_t i = 1; i < RequestQueue::kMostOfAMember; ++i) {
@@ -363,7 +363,8 @@ TEST_F(MissionsTest, ThatWaitForTheirTurnAreVoidedByAStopToo) {
   ASSERT_TRUE(Hears(*desk_, [](const exchange::Message& message) {
     return std::holds_alternative<exchange::MissionReply>(message);
   }));
-  ASSERT_TRUE(desk_->Publish(exchange::NowCommand{.client = AgentId("lab"), .number = 1}));
+  ASSERT_TRUE(desk_->Publish(exchange::NowCommand{
+      .client = AgentId("lab"), .number = 1, .order = mission::NowOrder::kCancel}));
   EXPECT_TRUE(Hears(*desk_, [](const exchange::Message& message) {
     const auto* report = std::get_if<mission::Report>(&message);
     return report != nullptr && report->state == mission::State::kCancelled;
