@@ -281,8 +281,8 @@ struct MissionReply {
   std::uint64_t request = 0;
   std::vector<mission::Record> missions{};        // the newest first
   std::vector<mission::GivenCommand> commands{};  // the newest first
-  // The answer to a query for one robot has this robot, if the server has heard it since it started,
-  // and otherwise others that the server has heard, at most kMaxRobotsTold.
+  // The answer to a query for one robot has this robot, if the server has heard it since it
+  // started, and otherwise others that the server has heard, at most kMaxRobotsTold.
   std::vector<std::string> robots{};
   std::uint64_t next = 0;  // 0: this is the last page
   std::string error{};     // why the request could not be answered; empty if it was
