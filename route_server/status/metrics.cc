@@ -50,7 +50,8 @@ std::string Metrics::Text() const {
             mirror.same);
   lines.Add("mirror_routes_under_way", kGauge, "Routes that are asked of them at present.",
             mirror.under_way);
-  lines.Add("mirror_routes_asked_total", kCounter, "Routes that were.", mirror.asked);
+  lines.Add("mirror_routes_asked_total", kCounter,
+            "Routes that were asked of other servers since the start.", mirror.asked);
   lines.Add("routes_partial", kGauge, "Complete routes of which segments are lacking or damaged.",
             partial_routes);
   lines.Add("segments_lacking", kGauge, "Segments of these that are asked for.", lacking_segments);

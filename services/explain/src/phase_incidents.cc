@@ -136,8 +136,11 @@ std::string TellSpell(const Told& told, const Spell& spell, double driven_m) {
       log.frames.begin() + static_cast<std::ptrdiff_t>(spell.first),
       log.frames.begin() + static_cast<std::ptrdiff_t>(spell.end),
       [](const FrameRow& a, const FrameRow& b) { return a.agreeing < b.agreeing; });
-  return fmt::format("{}, down to {} of the segment's {} features: {}", text, least->agreeing,
-                     least->stored, FateOfFeatures(told, spell.first));
+  // While the start is sought, features are key views' and not a segment's.
+  const std::string of_stored =
+      least->stored > 0 ? fmt::format("of the segment's {} features", least->stored) : "features";
+  return fmt::format("{}, down to {} {}: {}", text, least->agreeing, of_stored,
+                     FateOfFeatures(told, spell.first));
 }
 
 Incident OfSpell(const Told& told, const Spell& spell) {
