@@ -11,11 +11,11 @@ namespace {
 std::string FaultLines(const std::vector<Faults::Recovery>& recoveries) {
   std::map<std::string, std::vector<double>> by_kind;
   for (const auto& [from, seconds] : recoveries) by_kind[from].push_back(seconds);
-  std::string text = fmt::format("  {:<28} {:>5} {:>12} {:>12}\n", "faults, until all were heard",
+  std::string text = fmt::format("  {:<40} {:>5} {:>12} {:>12}\n", "faults, until all were heard",
                                  "times", "median, s", "longest, s");
   for (auto& [kind, seconds] : by_kind) {
     std::sort(seconds.begin(), seconds.end());
-    text += fmt::format("  {:<28} {:>5} {:>12.1f} {:>12.1f}\n", kind, seconds.size(),
+    text += fmt::format("  {:<40} {:>5} {:>12.1f} {:>12.1f}\n", kind, seconds.size(),
                         seconds[seconds.size() / 2], seconds.back());
   }
   return text;
