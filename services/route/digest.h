@@ -11,7 +11,7 @@ namespace trailcast::route {
 
 [[nodiscard]] Digest Sha256(std::span<const std::uint8_t> bytes);
 
-// The same of bytes that come piece by piece.
+// This computes the same for bytes that come piece by piece.
 class Sha256Stream {
  public:
   Sha256Stream();
@@ -20,7 +20,7 @@ class Sha256Stream {
   Sha256Stream& operator=(Sha256Stream&&) noexcept;
 
   void Add(std::span<const std::uint8_t> bytes);
-  // Of all that was added. Nothing may be added afterwards.
+  // Returns the digest of all that was added. Nothing may be added afterwards.
   [[nodiscard]] Digest Finish();
 
  private:
@@ -28,19 +28,21 @@ class Sha256Stream {
   std::unique_ptr<State> state_;
 };
 
-// RouteInfo::manifest_digest of segments with these digests, in order.
+// Returns the RouteInfo::manifest_digest of segments with these digests, in order.
 [[nodiscard]] Digest ManifestDigest(std::span<const Digest> digests);
-// Of a route's first segments, one by one: zero before the first, then SHA-256 of what it was
-// before the segment and of the segment's digest. Two routes' are the same if these segments are.
+// Returns the digest of a route's first segments from `before`, the one without the last of them,
+// and `next`, that segment's digest: SHA-256 of both. The one before the first segment is zero. Two
+// routes have the same one if these segments are the same.
 [[nodiscard]] Digest ChainDigest(const Digest& before, const Digest& next);
-// Lower-case hexadecimal.
+// Returns lower-case hexadecimal.
 [[nodiscard]] std::string ToHex(const Digest& digest);
 
-// Encodes and hashes: what a scout stores and publishes.
+// Encodes and hashes a segment. A scout stores and publishes the result.
 [[nodiscard]] SegmentPiece MakePiece(const RouteKey& key, const Segment& segment);
-// kCorrupt, naming route and segment, if the bytes are not those that were hashed.
+// Fails with kCorrupt, which names route and segment, if the bytes are not those that were hashed.
 [[nodiscard]] Result<void> CheckDigest(const SegmentPiece& piece);
-// CheckDigest, then Decode, then the decoded index must be the piece's.
+// Checks the digest, decodes, and fails with kCorrupt, too, if the decoded index is not the
+// piece's.
 [[nodiscard]] Result<Segment> Open(const SegmentPiece& piece);
 
 }  // namespace trailcast::route

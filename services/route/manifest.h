@@ -6,19 +6,20 @@
 
 namespace trailcast::route {
 
-// What a scout knows of the route it teaches, kept in step with the segments taught so far.
+// This is a scout's info of the route that it teaches, kept in step with the segments taught so
+// far.
 class RouteBuilder {
  public:
-  // `info` says who teaches what; its state, counts, sums and digest are set here, to a route
-  // without segments that is being taught.
+  // Expects an `info` that says who teaches what. Its state, counts, sums and digest are set here,
+  // to those of a route without segments that is being taught.
   explicit RouteBuilder(RouteInfo info);
 
   // Encodes and hashes the next segment and counts it in. Its index must be the number of segments
-  // so far, and the route not complete.
+  // so far, and the route must not be complete.
   [[nodiscard]] SegmentPiece Add(const Segment& segment);
-  // Counts in the next segment as it was encoded before; `length_m` is what it says.
+  // Counts in the next segment as it was encoded before. `length_m` is the length in it.
   void Add(const SegmentPiece& piece, double length_m);
-  // No more segments will come; `cut_off`: though whoever teaches did not mean to end here.
+  // Ends the route. It is `cut_off` if its scout did not mean to end here.
   void Complete(bool cut_off = false) {
     info_.state = RouteState::kComplete;
     info_.cut_off = cut_off;

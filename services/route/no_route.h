@@ -5,8 +5,9 @@
 
 namespace trailcast::route {
 
-// "server 'barn' has no route 'hell'; did you mean 'hall' or 'hull'?", of those that there are, or
-// of which some are known; where none is alike, "; there is yard". `holder`: "server 'barn'".
+// Returns "server 'barn' has no route 'hell'; did you mean 'hall' or 'hull'?", or, if no name is
+// similar, ".. 'hell'; there is yard, hall". `holder` is "server 'barn'", and `there` are its
+// routes, or those that are known.
 [[nodiscard]] std::string NoRouteText(const std::string& holder, const std::string& name,
                                       const std::vector<std::string>& there);
 

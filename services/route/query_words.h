@@ -9,19 +9,19 @@
 
 namespace trailcast::route {
 
-// What people and programs call what a query asks for.
+// These are the words by which people and programs ask for routes.
 
 [[nodiscard]] const std::map<std::string, RouteOrder>& OrderWords();  // "newest"
 
-// Being taught, or taught completely; what is complete has a standing besides.
+// A route is being taught or complete, and a complete one has a standing besides.
 struct StateWord {
   RouteState state = RouteState::kComplete;
   std::optional<Standing> standing{};
 };
 [[nodiscard]] const std::map<std::string, StateWord>& StateWords();  // "active"
 
-// "48.2,11.5": on the globe latitude and longitude, on a site metres east and north.
-// kInvalidArgument for anything else, and for what is no place.
+// Reads "48.2,11.5": latitude and longitude on the globe, metres east and north on a site. Fails
+// with kInvalidArgument for anything else, and for coordinates that no place has.
 [[nodiscard]] Result<Place> ReadPlace(Place::Frame frame, const std::string& text);
 
 }  // namespace trailcast::route

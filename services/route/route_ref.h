@@ -11,39 +11,40 @@
 
 namespace trailcast::route {
 
-// How people say which route they mean: by its name, which is no identity (two scouts may have
-// given it); or by its id, or the beginning of that. "@2" behind it is its revision 2.
+// People name a route by its name, which is no identity, as two scouts may have given it, or by its
+// id or the beginning of that. "@2" behind it is its revision 2.
 struct RouteRef {
   std::string route;           // name or id
-  std::uint32_t revision = 0;  // 0: none was said
+  std::uint32_t revision = 0;  // 0 if none was given
 };
 
-// kInvalidArgument, with what was expected.
+// Fails with kInvalidArgument, which says what was expected.
 [[nodiscard]] Result<RouteRef> ParseRouteRef(const std::string& text);
 
-// So much of an id is enough to be taken for one; what is shorter is a name.
+// A text of at least so many digits counts as an id, and a shorter one is a name.
 inline constexpr std::size_t kLeastIdDigits = 7;
-// What no id may begin with, as text, and above all that begins with the same digits.
+// No id has this digit. As text, a beginning with it behind sorts after all ids with that
+// beginning.
 inline constexpr char kAfterAnyIdDigit = 'g';
 [[nodiscard]] bool LooksLikeId(std::string_view name_or_id);
 
-// Whether it has this name, or its id begins so.
+// Returns whether the route has this name or an id that begins so.
 [[nodiscard]] bool IsMeantBy(const RouteInfo& info, const std::string& name_or_id);
-// Those of `routes` that are meant; of a whole id only its own route is, whatever others are
-// called.
+// Returns the `routes` that are meant. A whole id means its own route alone, even if another route
+// has it as a name.
 [[nodiscard]] std::vector<RouteInfo> OnlyMeant(std::vector<RouteInfo> routes,
                                                const std::string& name_or_id);
 
-// Ids as people are shown them: as many of their digits as tell these routes apart, kLeastIdDigits
-// at least.
+// This shortens ids for people to as many digits as tell these routes apart, kLeastIdDigits at
+// least.
 class ShortIds {
  public:
-  ShortIds() = default;  // of a route alone
+  ShortIds() = default;  // for a single route
   explicit ShortIds(std::span<const RouteInfo> routes);
 
-  // "a3f9c21"
+  // Returns "a3f9c21".
   [[nodiscard]] std::string Of(const RouteId& id) const { return id.value().substr(0, digits_); }
-  // "a3f9c21@2", or "a3f9c21" while the revision has no number.
+  // Returns "a3f9c21@2", or "a3f9c21" while the revision has no number.
   [[nodiscard]] std::string Of(const RouteInfo& info) const;
 
  private:

@@ -7,8 +7,8 @@
 
 namespace trailcast::route {
 
-// The two knots that fraction `s` of a segment lies between, and how much the later one counts:
-// above 1 beyond the last.
+// These are the two knots that a fraction of a segment lies between, and the weight of the later
+// one, which is above 1 beyond the last knot.
 struct TrackStretch {
   TrackKnot before;
   TrackKnot after;
@@ -23,8 +23,8 @@ struct TrackStretch {
           (static_cast<float>(s) - before->s) / std::max(1e-6F, after->s - before->s)};
 }
 
-// A feature's taught place at fraction `s` of its segment: straight between its knots, and on along
-// the last stretch for s beyond 1.
+// Returns a feature's taught place at fraction `s` of its segment. It is interpolated linearly
+// between knots and, for s beyond 1, extrapolated from the last two.
 [[nodiscard]] inline TrackKnot TaughtPlace(const Feature& feature, double s) {
   const auto [before, after, w] = StretchAt(feature, s);
   return {static_cast<float>(s), before.u_px + w * (after.u_px - before.u_px),

@@ -4,16 +4,16 @@
 
 namespace trailcast::route {
 
-// Where a feature is in the current image: pixels of the camera at hand from its image centre, u to
-// the right, v down. While teaching `id` counts detections; while replaying it is the feature's
-// position in Segment::features.
+// This is where a feature is in the current image, in pixels of the camera that took it, from its
+// image centre, u to the right, v down. While teaching, `id` counts detections; while replaying, it
+// is the feature's position in Segment::features.
 struct TrackedFeature {
   int id = 0;
   double u_px = 0.0;
   double v_px = 0.0;
 };
 
-// A feature as detected, with what it looks like.
+// This is a feature as detected, with its appearance.
 struct DescribedFeature {
   TrackedFeature at;
   Patch patch{};

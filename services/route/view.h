@@ -7,23 +7,23 @@
 
 namespace trailcast::route {
 
-// Of a view that a catalog is asked by.
+// A view by which a catalog is asked has at most so many features.
 inline constexpr std::size_t kMaxViewFeatures = 840;
 
-// A stretch of a route that looks like a view.
+// This is a segment of a route that looks like a view.
 struct FoundPlace {
   RouteKey key;
   SegmentIndex segment;
-  double score = 0.0;  // 0..1, services/view says of what
+  double score = 0.0;  // from 0 to 1; services/view defines it
 
   bool operator==(const FoundPlace&) const = default;
 };
 
-// How much of what is stored was searched for a view.
+// This tells how much of what is stored was searched for a view.
 struct ViewCoverage {
   std::uint64_t segments_indexed = 0;
-  std::uint64_t segments_stored = 0;  // of the routes looked at so far
-  std::uint64_t routes_unseen = 0;    // not looked at yet: their segments are in neither number
+  std::uint64_t segments_stored = 0;  // segments of the routes that were read so far
+  std::uint64_t routes_unseen = 0;    // routes not read yet, whose segments are in neither number
 
   bool operator==(const ViewCoverage&) const = default;
 };

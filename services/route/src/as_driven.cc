@@ -10,7 +10,7 @@ namespace trailcast::route {
 
 Segment AsDriven(Segment segment) {
   if (segment.has_odometry || !segment.seen_way) return segment;
-  constexpr int kSteps = 16;  // of a cubic's extremes
+  constexpr int kSteps = 16;  // search for the cubic's extremes
   segment.has_odometry = true;
   segment.length_m = segment.seen_way->length_m;
   segment.duration_s = segment.length_m / kUsualSpeed_mps;

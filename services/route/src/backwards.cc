@@ -9,11 +9,12 @@ namespace {
 
 constexpr double kMean = 8.0;  // of a patch
 constexpr double kMost = 15.0;
-// A pattern that is shown larger is blurred.
+// A pattern that is enlarged more than this is blurred.
 constexpr double kLargest = 3.0;
 constexpr double kNearAxis_px = 10.0;
 
-// h(L - x) - h(L): against the metres from the other end, and counted from there.
+// Returns h(L - x) - h(L), the heading by the metres x from the other end, and relative to that
+// end.
 HeadingPolynomial FromTheEnd(const HeadingPolynomial& heading, double length_m) {
   const auto& c = heading.c;
   return {{-(c[0] + length_m * (2.0 * c[1] + 3.0 * length_m * c[2])), c[1] + 3.0 * length_m * c[2],
@@ -35,7 +36,7 @@ double Sample(const Patch& patch, double x, double y) {
          down * ((1.0 - right) * at(column, row + 1) + right * at(column + 1, row + 1));
 }
 
-// Its middle, and its contrast as ever.
+// Returns the patch's middle, enlarged, with the contrast that patches have.
 Patch Enlarged(const Patch& patch, double times) {
   std::array<double, std::tuple_size_v<Patch>> grey{};
   const double middle = 0.5 * (kPatchSize - 1);
@@ -59,10 +60,9 @@ Patch Enlarged(const Patch& patch, double times) {
   return enlarged;
 }
 
-// A camera that moves on along its axis, and turns by little, has a feature that was at p at p' = g
-// p
-// + t: how much nearer it has come, and how far it turned, which is the same for all. What turned
-// is what makes p' - t parallel to p, in the least squares.
+// A camera that moves along its axis and turns by little sees a feature that was at p at p' = g p +
+// t, where g is its growth as it came nearer, and t the turn, which is the same for all features.
+// The turn is the t that makes p' - t parallel to p in least squares.
 struct Shift {
   double u_px = 0.0;
   double v_px = 0.0;
@@ -90,8 +90,8 @@ Shift Turned(const Segment& segment) {
   return {(vv * u - uv * v) / determinant, (uu * v - uv * u) / determinant};
 }
 
-// How much larger what each feature shows is at the segment's end than at its beginning. Of those
-// near the axis, which hardly move, as much as of all in the middle.
+// Returns how much larger each feature's pattern is at the segment's end than at its beginning.
+// Features near the axis hardly move, so they get the median of all others.
 std::vector<double> Growths(const Segment& segment) {
   const Shift turned = Turned(segment);
   std::vector<double> growths;
@@ -137,7 +137,7 @@ Segment FromOtherEnd(const Segment& segment) {
 Result<std::vector<Segment>> DrivenBackwards(const std::vector<Segment>& route) {
   std::vector<Segment> back;
   back.reserve(route.size());
-  double turn_rad = 0.0;  // before the segment that was driven later
+  double turn_rad = 0.0;  // turned before the segment that was driven later
   for (auto it = route.rbegin(); it != route.rend(); ++it) {
     if (it->reverse) {
       return Fail(ErrorCode::kInvalidArgument,

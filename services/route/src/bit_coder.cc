@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kWindowBytes = sizeof(std::uint32_t);
 constexpr unsigned kTopByte = 24;
 
-// The logistic function of 0, 1/4, 1/2 ... 11, in 1/65536.
+// This is the logistic function of 0, 1/4, 1/2 ... 11, in 1/65536.
 constexpr std::array<int, 45> kLogistic = {
     32768, 36843, 40793, 44511, 47911, 50941, 53581, 55834, 57724, 59287, 60565, 61598,
     62428, 63090, 63615, 64030, 64357, 64614, 64816, 64974, 65097, 65194, 65269, 65328,
@@ -70,8 +70,8 @@ std::uint32_t BitCoder::CodePlain(std::uint32_t value, int count) {
   return coded;
 }
 
-// Beyond the end zeros are read. So what ends here is any number between the two that has as many
-// of them at its end as can be, without them.
+// A reader reads zeros beyond the end. So the code ends with the number between lowest_ and
+// highest_ that has the most zero bytes at its end, and those bytes are not written.
 std::string BitCoder::Finish() {
   for (unsigned zeros = 32; lowest_ > 0 && zeros > 0;) {
     zeros -= 8;

@@ -24,12 +24,13 @@ constexpr int kSizeOfOnePixel = 64;
 constexpr double kStepsPerPictureHeight = 1e4;
 constexpr double kStepsPerMps2 = 1e2;
 constexpr double kSlopeStepsPerRadian = 1e3;
-// More than this shakes no robot, and nothing that drives stands steeper.
+// No robot shakes by more than this, and no vehicle stands steeper.
 constexpr std::uint32_t kMostShake = 10'000;
 constexpr std::uint32_t kMostVertical = 10'000;
 constexpr std::int32_t kSteepest = 1571;
 
-// Nearest multiple, held inside int32: a robot gone mad must not make undefined behaviour of it.
+// Returns the nearest multiple within int32, so that absurd values from a broken robot cause no
+// undefined behaviour.
 std::int32_t Quantise(double value, double steps_per_unit) {
   assert(std::isfinite(value));
   if (!std::isfinite(value)) return 0;

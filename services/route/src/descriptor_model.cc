@@ -9,9 +9,9 @@
 namespace trailcast::route {
 namespace {
 
-constexpr int kWeightUnit = 16;    // of Logistic's argument
-constexpr int kLikeWeight = 480;   // 1.9
-constexpr int kShareOfModel = 10;  // of 16, beside a descriptor like it
+constexpr int kWeightUnit = 16;    // of Logistic's argument for each unit of a sum
+constexpr int kLikeWeight = 480;   // log odds of 1.9
+constexpr int kShareOfModel = 10;  // out of kWeightUnit, if a similar descriptor is known
 
 }  // namespace
 

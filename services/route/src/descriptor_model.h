@@ -5,8 +5,9 @@
 
 namespace trailcast::route {
 
-// An upright ORB descriptor, bit by bit, each expected by those before it: half of its bits follow
-// from the others. `like`, if any: one that is known and probably of the same thing.
+// Codes an upright ORB descriptor bit by bit. Each bit is predicted from those before it, by which
+// half of the bits are saved. `like`, if given, is a known descriptor that is probably of the same
+// thing.
 void CodeDescriptor(BitCoder& coder, Descriptor& descriptor, const Descriptor* like);
 
 }  // namespace trailcast::route

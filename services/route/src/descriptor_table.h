@@ -12,17 +12,17 @@ namespace trailcast::route {
 inline constexpr std::size_t kDescriptorBits = 8 * std::tuple_size_v<Descriptor>;
 inline constexpr std::size_t kWitnesses = 8;
 
-// How a bit of a descriptor depends on bits before it. A bit that is set counts +1 and one that is
-// not -1; the sum of what they weigh, in 1/16, is the logarithm of how probable it is that this bit
-// is set against that it is not.
+// This tells how a bit of a descriptor depends on bits before it. A set bit counts +1 and any other
+// -1. Their weighted sum, in 1/16, is the logarithm of the odds that this bit is set.
 struct DescriptorBit {
   std::int8_t bias;
   std::array<std::uint8_t, kWitnesses> witnesses;
   std::array<std::int8_t, kWitnesses> weights;
 };
 
-// Fitted to 16 000 descriptors of five recordings: the witnesses chosen one after the other for
-// what each explains that those before it do not, their weights by logistic regression.
+// These are fitted to 16 000 descriptors of five recordings. Witnesses were chosen one after the
+// other, each for what it explains beyond those before it, and their weights by logistic
+// regression.
 inline constexpr std::array<DescriptorBit, kDescriptorBits> kDescriptorTable = {{
     {-5, {0, 0, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0}},
     {-4, {0, 0, 0, 0, 0, 0, 0, 0}, {-10, 0, 0, 0, 0, 0, 0, 0}},

@@ -11,7 +11,7 @@
 namespace trailcast::route {
 namespace {
 
-// Looked up once: OpenSSL takes as long for that as for a short text.
+// OpenSSL takes as long to look this up as to hash a short text, so it is looked up once.
 const EVP_MD* Algorithm() {
   static const EVP_MD* const found = EVP_MD_fetch(nullptr, "SHA256", nullptr);
   return found;
@@ -52,7 +52,7 @@ Digest Sha256Stream::Finish() {
 Digest Sha256(std::span<const std::uint8_t> bytes) {
   Digest digest{};
   unsigned int length = 0;
-  // Refuses only when it cannot allocate.
+  // OpenSSL refuses only when it cannot allocate, as above.
   if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, Algorithm(), nullptr) != 1 ||
       length != digest.size()) {
     throw std::bad_alloc();

@@ -10,7 +10,7 @@
 namespace trailcast::route {
 namespace {
 
-// What does not fit becomes the largest value that does, which no route within bounds has.
+// A value that does not fit becomes the largest that does. No route within bounds has that.
 template <typename Narrow>
 Narrow Narrowed(std::uint32_t value) {
   return static_cast<Narrow>(
@@ -26,7 +26,7 @@ Place ReadPlace(const format::v1::Place& in) {
 Bytes EncodeInfo(const RouteInfo& info) {
   format::v1::Route out;
   out.set_route(info.key.route.value());
-  // Left out where the number says it, as in files of before.
+  // It is left out where it equals the revision's number, as in files from before it existed.
   if (info.key.teaching.value() != info.revision.value()) {
     out.set_teaching(info.key.teaching.value());
   }
@@ -75,7 +75,7 @@ Result<RouteInfo> DecodeInfo(std::span<const std::uint8_t> bytes) {
     return Fail(ErrorCode::kCorrupt, "a route's manifest digest has {} bytes, expected {}",
                 in.manifest_digest().size(), info.manifest_digest.size());
   }
-  // Before teachings had an identity of their own, a revision's number was it.
+  // Before teachings had an identity of their own, the revision's number identified them.
   const std::uint64_t teaching = in.teaching() == 0 ? in.revision() : in.teaching();
   info.key = {RouteId(in.route()), TeachingId(teaching)};
   info.revision = RevisionNumber(in.revision());

@@ -9,7 +9,7 @@
 
 namespace trailcast::route {
 
-// A bit whose probability is learnt from those before it: quickly at first.
+// This is a bit whose probability is learnt from those before it, quickly at first.
 class LearntBit {
  public:
   bool Code(BitCoder& coder, bool bit) {
@@ -28,7 +28,7 @@ class LearntBit {
   int seen_ = 0;
 };
 
-// Numbers of `kBits` bits of which some are more frequent than others.
+// This codes numbers of `kBits` bits, some of which are more frequent than others.
 template <int kBits>
 class LearntSymbol {
  public:
@@ -45,8 +45,8 @@ class LearntSymbol {
   std::array<LearntBit, 1U << kBits> nodes_;
 };
 
-// Numbers about 0, up to +-(2^kLongest - 1): how many digits they have is learnt, their sign, and
-// the digit after the first.
+// This codes numbers about 0, up to +-(2^kLongest - 1). It learns their number of digits, their
+// sign, and the digit after the first.
 class LearntNumber {
  public:
   static constexpr int kLongest = 24;

@@ -9,10 +9,10 @@ namespace {
 
 constexpr int kSampleLevels = 16;
 constexpr int kMeanSample = 8;
-constexpr int kLevelUnit = 256;  // of a level, and of what weighs a neighbour
+constexpr int kLevelUnit = 256;  // one level, and a neighbour's full weight
 
-// The neighbours that are known when a sample's turn comes. Where one would lie outside the patch,
-// the next one inside stands for it.
+// These are the neighbours that are known when a sample is coded. The nearest one inside replaces
+// one outside the patch.
 struct Neighbours {
   int left = kMeanSample;
   int above = kMeanSample;
@@ -37,9 +37,9 @@ Neighbours NeighboursOf(const Patch& patch, int row, int column) {
   return near;
 }
 
-// What each neighbour weighs, in the order of `Neighbours`, and how steeply the likelihood of a
-// sample falls off, in 1/256 a level, by how much the neighbours differ. Fitted to the patches of
-// 4 900 features of five recordings.
+// These are the neighbours' weights, in the order of `Neighbours`, and the steepness of a sample's
+// logistic distribution, in 1/256 for each level, by how much the neighbours differ. They are
+// fitted to the patches of 4 900 features of five recordings.
 constexpr std::size_t kActivities = 8;
 struct Expectation {
   std::array<int, 6> weights;
@@ -58,7 +58,8 @@ const Expectation& ExpectationAt(int row, int column) {
   return column > 0 ? kFirstRow : kFirst;
 }
 
-// A sample's distribution: logistic about what is expected, and a little of everything.
+// This is a sample's distribution: a logistic one about the prediction, mixed with a small uniform
+// one.
 class SampleModel {
  public:
   SampleModel(const Neighbours& near, const Expectation& expectation) {
@@ -76,9 +77,9 @@ class SampleModel {
         expectation.steepness.at(std::min(kActivities - 1, static_cast<std::size_t>(halves) / 4));
   }
 
-  // How probable a sample below `level` is.
+  // Returns the probability of a sample below `level`.
   [[nodiscard]] int Below(int level) const {
-    constexpr int kEach = 32;  // that much is left to every level
+    constexpr int kEach = 32;  // the least share of each level
     if (level <= 0) return 0;
     if (level >= kSampleLevels) return kCertain;
     const int from_centre = level * kLevelUnit - kLevelUnit / 2 - centre_;

@@ -5,7 +5,7 @@
 
 namespace trailcast::route {
 
-// A patch's samples, 0 to 15, row by row, each expected to be about where its neighbours lead.
+// Codes a patch's samples, 0 to 15, row by row. Each is predicted from its neighbours.
 void CodePatch(BitCoder& coder, Patch& patch);
 
 }  // namespace trailcast::route

@@ -19,9 +19,9 @@ namespace {
 constexpr int kSampleBits = 4;
 constexpr std::int32_t kTrackLimit = kMaxCoordinatePx * kStepsPerPixel;
 constexpr std::int32_t kPlaceLimit = kMaxCoordinatePx * kStepsPerViewPixel;
-// So many features are remembered whose descriptors another may be like.
+// So many features are kept as candidates for a similar descriptor.
 constexpr std::size_t kMostCandidates = 256;
-// A descriptor that differs from another in no more bits is probably of the same thing.
+// Two descriptors that differ in no more bits than this are probably of the same thing.
 constexpr int kMostDifferent = 64;
 
 int Differences(const Descriptor& a, const Descriptor& b) {
@@ -32,8 +32,8 @@ int Differences(const Descriptor& a, const Descriptor& b) {
   return different;
 }
 
-// What `code` says of a value, or the value as it is, `kBits` a byte, where that takes less: noise
-// follows no model.
+// Codes a value by `code`, or as plain bits, `kBits` a byte, if that is shorter: noise follows no
+// model.
 template <int kBits, class Bytes, class CodeByModel>
 void CodeShorter(BitCoder& coder, LearntBit& plain_model, Bytes& bytes, CodeByModel code) {
   bool plain = false;
@@ -47,8 +47,8 @@ void CodeShorter(BitCoder& coder, LearntBit& plain_model, Bytes& bytes, CodeByMo
   for (auto& byte : bytes) byte = static_cast<std::uint8_t>(coder.CodePlain(byte, kBits));
 }
 
-// Goes through what was seen, and writes it or fills it in: one order for both. What is read is
-// held against the format's bounds as soon as it is known, so that nothing grows beyond them.
+// This goes through features and views and writes them or fills them in, in the same order. Values
+// that are read are checked against the format's bounds at once, so that nothing grows beyond them.
 class SeenCoder {
  public:
   SeenCoder(BitCoder& coder, Seen& seen) : coder_(coder), seen_(seen) {}
@@ -82,7 +82,7 @@ class SeenCoder {
     return Fail(ErrorCode::kCorrupt, "segment has {} {}, more than {}", count, what, most);
   }
 
-  // What can still be counted is far beyond every bound.
+  // This counts far beyond every bound.
   std::size_t Count(std::size_t count) {
     constexpr int kDigits = 4;
     int digits = std::bit_width(count);
@@ -104,7 +104,7 @@ class SeenCoder {
     return EnoughBytes();
   }
 
-  // Nearly always those of the feature before.
+  // The times are nearly always those of the feature before.
   Result<void> CodeTimes(std::vector<CodedKnot>& track) {
     const bool same = same_times_.Code(
         coder_, std::equal(track.begin(), track.end(), times_.begin(), times_.end(),
@@ -130,8 +130,8 @@ class SeenCoder {
     return {};
   }
 
-  // The first knot as it is, the second less the first, each further one less where the two before
-  // it lead.
+  // Codes the first knot as it is, the second relative to the first, and each further one relative
+  // to the extrapolation from the two before it.
   [[nodiscard]] bool CodeTrack(std::vector<CodedKnot>& track) {
     for (std::size_t i = 0; i < track.size(); ++i) {
       const CodedKnot expected = Expected(track, i);
@@ -200,7 +200,7 @@ class SeenCoder {
     });
   }
 
-  // Which of the features that are known already has a descriptor like this one. Nothing: none.
+  // Returns the known feature that has a descriptor like this one, or nothing.
   const CodedViewFeature* CodeLike(const Descriptor& descriptor) {
     const std::size_t candidates = std::min(known_.size(), kMostCandidates);
     if (candidates == 0) return nullptr;
@@ -225,8 +225,8 @@ class SeenCoder {
     return known_[known_.size() - 1 - back];
   }
 
-  // Where a pixel of the pyramid's level is a whole number of steps, the fraction is nearly always
-  // the same.
+  // If a pixel of the pyramid's level is a whole number of steps, the fraction is nearly always the
+  // same.
   struct PlaceModel {
     LearntNumber whole;
     std::array<LearntSymbol<2>, 256> fraction;  // by the feature's size
@@ -256,11 +256,11 @@ class SeenCoder {
   LearntBit same_times_;
   LearntSymbol<8> time_;
   std::vector<int> times_;  // of the last feature's knots
-  // Of u and v, of a feature's first knot, of its second, and of all others.
+  // These are for u and v, each for a feature's first knot, its second, and all others.
   std::array<std::array<LearntNumber, 2>, 3> track_;
   LearntNumber at_;
   int last_at_ = 0;
-  std::vector<CodedViewFeature> known_;  // of this view and those before it
+  std::vector<CodedViewFeature> known_;  // features of this view and of those before it
   LearntBit alike_;
   LearntSymbol<8> size_;
   std::array<PlaceModel, 2> place_;

@@ -12,8 +12,8 @@
 
 namespace trailcast::route {
 
-// What was seen on a segment, its features and its key views, in the steps of the route format
-// (docs/reference/route-format.md): nearly all of a segment's bytes.
+// These are a segment's features and key views in the steps of the route format
+// (docs/reference/route-format.md). They are nearly all of a segment's bytes.
 struct CodedKnot {
   int time = 0;  // 0 to kLastKnotTime, rising
   std::int32_t u = 0;
@@ -23,7 +23,7 @@ struct CodedFeature {
   Patch patch{};
   Descriptor descriptor{};
   std::uint8_t missed = 0;
-  std::vector<CodedKnot> track;  // two at least, the first at 0, the last at kLastKnotTime
+  std::vector<CodedKnot> track;  // at least two, the first at 0, the last at kLastKnotTime
 };
 struct CodedViewFeature {
   Descriptor descriptor{};
@@ -32,7 +32,7 @@ struct CodedViewFeature {
   std::int32_t v = 0;
 };
 struct CodedView {
-  int at = 0;  // 0 to kLastKnotTime, not before the one before
+  int at = 0;  // 0 to kLastKnotTime, in rising order
   std::optional<std::uint8_t> missed;
   std::vector<CodedViewFeature> features;
 };
@@ -45,10 +45,10 @@ inline constexpr int kLastKnotTime = 255;
 inline constexpr int kStepsPerPixel = 16;     // of a track
 inline constexpr int kStepsPerViewPixel = 4;  // of a key view's place
 
-// Without loss. Nothing seen gives no bytes.
+// Packs without loss. Without features and views it returns no bytes.
 [[nodiscard]] std::string Pack(Seen seen);
 
-// kCorrupt with what is wrong for bytes that are nothing of the kind.
+// Fails with kCorrupt, and what is wrong, for bytes that Pack does not make.
 [[nodiscard]] Result<Seen> Unpack(std::string_view bytes);
 
 }  // namespace trailcast::route
