@@ -9,9 +9,9 @@ namespace {
 using std::chrono::duration_cast;
 using std::chrono::milliseconds;
 
-// Clocks drift apart, by less than this.
+// Clocks drift apart by less than this.
 constexpr double kDrift_ms_per_s = 1.0;
-// No word is under way for so long: the driver has another clock than before.
+// No command is under way for this long, so the driver has another clock than before.
 constexpr double kOtherClock_ms = 10'000.0;
 
 }  // namespace

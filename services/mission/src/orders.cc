@@ -67,7 +67,7 @@ class Parser {
     if (tasks.empty()) return Fail(ErrorCode::kInvalidArgument, "no orders: say {}", kGrammar);
     return tasks;
   }
-  // After All.
+  // This is valid after All.
   [[nodiscard]] const std::optional<Going>& going() const { return going_; }
 
  private:
@@ -89,7 +89,7 @@ class Parser {
     return {};
   }
 
-  // To the end.
+  // Takes the rest of the words as the reason.
   [[nodiscard]] bool TakeReason() {
     if (!going_ || Next() != "because") return false;
     (void)Take();
@@ -98,7 +98,7 @@ class Parser {
     return true;
   }
 
-  // Of a way there are stretches, and in the end none.
+  // Checks that a path consists of sections, turns and waits, with 'wait way' at most at its end.
   [[nodiscard]] Result<void> CheckOnWay(const Task& task, const std::vector<Task>& before) const {
     if (!going_) return {};
     const bool ends = !before.empty() && before.back().kind == Task::Kind::kWaitWay;
