@@ -17,14 +17,15 @@ namespace trailcast::view {
 
 struct ViewIndexOptions {
   std::uint32_t most_segments = 200'000;
-  // Passed by the last segment's worth at most. README.md says how much a segment takes.
+  // The last segment may exceed this. README.md says how much a segment takes.
   std::size_t most_bytes = 100'000'000;
 };
 
-// Which segments have features that look like those of a view: an inverted index from 20 bits of a
-// descriptor (its word) to the segments, with 12 more bits to tell apart what shares a word. Words
-// that differ by up to two bits are looked up too, so that nothing need be learnt beforehand. Finds
-// candidates, which are then compared feature by feature (view_match.h). Not thread-safe.
+// This finds segments with features that look like those of a view. It is an inverted index from 20
+// bits of a descriptor (its word) to the segments, with 12 more bits (its check) to tell apart
+// features that share a word. It also looks up words that differ by up to two bits, so that nothing
+// need be learnt beforehand. It finds candidates, which are then compared feature by feature
+// (view_match.h). It is not thread-safe.
 class ViewIndex {
  public:
   struct Place {
@@ -36,26 +37,29 @@ class ViewIndex {
 
   explicit ViewIndex(const ViewIndexOptions& options = {});
 
-  // False, and nothing is added, when the index is full. A segment that is held stays as it is.
+  // Returns false, and adds nothing, when the index is full. A segment that it already holds stays
+  // unchanged.
   [[nodiscard]] bool Add(const route::RouteKey& key, const route::Segment& segment);
-  // All of the route's segments; none is fine.
+  // Removes all of the route's segments, if there are any.
   void Remove(const route::RouteKey& key);
 
-  // Those with the most features in common, weighed by how alike they are, the best first.
+  // Returns the segments with the most features in common, weighted by their similarity, the best
+  // first.
   [[nodiscard]] std::vector<Place> Candidates(std::span<const route::ViewFeature> view,
                                               std::size_t most);
 
   [[nodiscard]] bool Holds(const Place& place) const;
-  // The segments held of the place's route that come up to so many before it, or after; without it.
+  // Returns the segments of the place's route that come up to so many before or after it, without
+  // itself.
   [[nodiscard]] std::vector<Place> Around(const Place& place, std::size_t before_and_after) const;
   [[nodiscard]] std::size_t routes() const { return routes_.size(); }
-  // Segments.
+  // Returns the number of segments.
   [[nodiscard]] std::size_t size() const { return slots_.size() - free_slots_.size() - dead_; }
   [[nodiscard]] bool full() const {
     const std::size_t for_reuse = free_chunks_.size() * sizeof(Chunk);
     return size() >= options_.most_segments || bytes() - for_reuse >= options_.most_bytes;
   }
-  // Of the tables and what is in them.
+  // Returns the size of the tables with their content.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -63,7 +67,7 @@ class ViewIndex {
   static constexpr std::uint32_t kNoEntry = 0xFFFFFFFFU;
   struct Chunk {
     std::array<std::uint32_t, 7> entries;
-    std::uint32_t next;  // 0: none
+    std::uint32_t next;  // 0 is none
   };
   static constexpr std::uint32_t kChunksABlock = 4096;
   using Block = std::array<Chunk, kChunksABlock>;
@@ -82,11 +86,11 @@ class ViewIndex {
     std::uint16_t voter = 0;                      // the last feature of the view that voted
   };
 
-  // Nothing when all are taken.
+  // Returns nothing when all are taken.
   [[nodiscard]] std::optional<std::uint32_t> TakeSlot();
-  // With a number, if it is new.
+  // Returns the route, which gets a number if it is new.
   [[nodiscard]] Route& RouteOf(const route::RouteKey& key);
-  void InsertAll();  // entries_
+  void InsertAll();  // inserts entries_
   void Insert(std::uint32_t word, std::uint32_t entry);
   [[nodiscard]] std::uint32_t TakeChunk(std::uint32_t next);
   [[nodiscard]] Chunk& ChunkAt(std::uint32_t number) {
@@ -100,22 +104,22 @@ class ViewIndex {
   [[nodiscard]] static int Votes(const Tally& tally);
 
   ViewIndexOptions options_;
-  std::vector<std::uint32_t> heads_;  // by word: its first chunk's number, 0: none
-  // In blocks, so that they are not scattered among memory that comes and goes.
+  std::vector<std::uint32_t> heads_;  // by word: its first chunk's number, or 0
+  // Chunks lie in blocks, so that they are not scattered among short-lived memory.
   std::vector<std::unique_ptr<Block>> blocks_;
   std::uint32_t chunk_count_ = 1;  // number 0 is not used
   std::vector<std::uint32_t> free_chunks_;
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_slots_;
-  std::size_t dead_ = 0;  // slots whose segment was removed, their entries not yet
+  std::size_t dead_ = 0;  // slots whose segment was removed, but not their entries
   std::map<route::RouteKey, Route> routes_;
-  std::vector<const route::RouteKey*> keys_;  // by number: of routes_
+  std::vector<const route::RouteKey*> keys_;  // by number: the keys in routes_
   std::vector<std::uint32_t> free_numbers_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>>
       entries_;                        // being inserted, with their words
   std::vector<Tally> tallies_;         // by slot, while voting
   std::vector<std::uint32_t> alike_;   // slots
-  std::vector<std::uint32_t> chains_;  // that are walked for it
+  std::vector<std::uint32_t> chains_;  // the chains that are searched for them
 };
 
 }  // namespace trailcast::view

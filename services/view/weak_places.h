@@ -9,34 +9,35 @@
 
 namespace trailcast::view {
 
-// Why followers may not recognise where they are.
+// This is why followers may not recognise where they are.
 enum class Weakness {
-  kBland,      // too little to hold on to: dark, blank, out of focus
-  kUnrelated,  // views in a row that have next to nothing in common: too fast for the frame rate
+  kBland,      // too few features in a view: dark, blank, out of focus
+  kUnrelated,  // successive views with next to nothing in common: too fast for the frame rate
   kBare,       // too few features to steer by
 };
 
 [[nodiscard]] const char* NameOf(Weakness why);  // "bland"
 
-// A stretch of a route, in metres from its beginning, or, where it was taught without odometry, in
-// seconds of teaching in motion.
+// This is a section of a route, in metres from its beginning or, if it was taught without odometry,
+// in seconds of teaching in motion.
 struct WeakPlace {
   double begin = 0.0;
   double end = 0.0;
   Weakness why = Weakness::kBland;
-  int features = 0;  // that there are, or that views have in common: the fewest of the stretch
+  int features = 0;  // fewest features in the section, or fewest in common to two views
 
   bool operator==(const WeakPlace&) const = default;
 };
 
-// Finds where a taught route is weak, segment by segment from the first on.
+// This finds where a taught route is weak, segment by segment from the first on.
 class WeakPlaceFinder {
  public:
-  // `width_px`: of the scout's pictures.
+  // `width_px` is the width of the scout's pictures.
   explicit WeakPlaceFinder(int width_px) : width_px_(width_px) {}
 
   void Add(const route::Segment& segment);
-  // In the route's order; those that touch each other and are weak for the same reason are one.
+  // Returns the places in the route's order. Places that touch and are weak for the same reason are
+  // merged.
   [[nodiscard]] std::vector<WeakPlace> Places() const;
 
  private:

@@ -13,32 +13,35 @@
 namespace trailcast::view {
 namespace {
 
-// Magnification tried, natural logarithm: an omnidirectional mirror sees things a fifth as large as
-// a webcam does, a narrow lens seen by a wide one three times as large.
+// These limit the magnifications that are tried, as natural logarithms. An omnidirectional mirror
+// shows things a fifth as large as a webcam does, and a narrow lens, seen by a wide one, three
+// times as large.
 constexpr double kLeastLogScale = -1.6;
 constexpr double kMostLogScale = 1.1;
 constexpr double kStep = 0.2;
-// How far off the size of a feature may be, and the magnification of a pair of them.
+// The size of a feature, and the magnification of a pair of features, may be off by these.
 constexpr double kSizeBand = 0.25;
 constexpr double kScaleBand = 0.22;
 constexpr int kMostBits = 72;
 constexpr double kRatio = 0.9;  // best to second best that is elsewhere
-// In half widths of the key view's picture, as it is magnified; not below those of a picture in
-// which all is so small that a pixel more is much.
+// These are in half widths of the key view's picture, as it is magnified. kLeastTolerance limits
+// that, as in a picture in which all is small a pixel is a large error.
 constexpr double kElsewhere = 0.03;
 constexpr double kAgreeU = 0.10;
 constexpr double kAgreeV = 0.04;
 constexpr double kLeastTolerance = 0.3;
 constexpr double kShortestBase = 0.2;
 constexpr std::size_t kFewestPairs = 4;
-// One view in a hundred of other worlds is so like any of 100 000 segments; fewer magnifications
-// have fewer chances, and those of cameras much like the scout's are the likely ones.
+// One view in a hundred of other worlds is so similar to any of 100 000 segments. Fewer
+// magnifications have fewer chances, so less is enough for cameras much like the scout's, which are
+// also the likely ones.
 constexpr double kEnoughLikeness = 5.5;
 constexpr double kEnoughOfLikeCameras = 4.5;
 constexpr double kLeastLogScaleOfLike = -0.5;
 constexpr double kMostLogScaleOfLike = 0.2;
 
-// Features seen again differ in some forty bits, the likest of many strangers in some seventy.
+// Features seen again differ in some forty bits, and the most similar of many unrelated ones in
+// some seventy.
 double Weight(int bits) { return std::min(1.0, (76.0 - bits) / 40.0); }
 
 struct Pair : Comparison::Pair {
@@ -48,7 +51,7 @@ struct Pair : Comparison::Pair {
 class Magnified {
  public:
   Magnified(const ViewTable& key, const ViewTable& seen) : key_(key), seen_(seen) {
-    // A second best beyond this takes nothing from a best that is like enough.
+    // A second best with more bits than this does not refute a best that is similar enough.
     const int most = static_cast<int>(kMostBits / kRatio);
     alike_.resize(key.size());
     for (std::size_t i = 0; i < key.size(); ++i) {
@@ -95,7 +98,7 @@ class Magnified {
     }
   }
 
-  // Of the seen features that are about this large.
+  // Returns the most similar of those seen features that are about this large.
   [[nodiscard]] std::optional<Likest::Nearest> MostAlike(std::size_t key, double log_size,
                                                          double elsewhere) const {
     Likest likest(seen_, elsewhere);
@@ -106,7 +109,7 @@ class Magnified {
     return likest.Found(kMostBits, kRatio);
   }
 
-  // By what carries two pairs over, of any two.
+  // Tries the fits of all two pairs.
   void Improve(ViewMatch& best, double about_scale) const {
     const double tolerance = std::max(about_scale, kLeastTolerance);
     for (std::size_t a = 1; a < pairs_.size(); ++a) {

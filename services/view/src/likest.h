@@ -9,9 +9,9 @@
 
 namespace trailcast::view {
 
-// Of the features of a view that are offered one after the other the one most like another, if it
-// is like enough and no other place is nearly so: the same corner on the pyramid's next level is no
-// rival.
+// This finds the feature most similar to another among those of a view, which are offered one by
+// one. It must be similar enough, and no feature elsewhere in the picture may be nearly as similar.
+// The same corner on the pyramid's next level does not count as a rival.
 class Likest {
  public:
   struct Nearest {
@@ -19,7 +19,7 @@ class Likest {
     int bits = std::numeric_limits<int>::max();
   };
 
-  // `elsewhere`: half widths.
+  // A feature is elsewhere if it is further than `elsewhere` away, in half widths.
   Likest(const ViewTable& seen, double elsewhere) : seen_(seen), elsewhere_(elsewhere) {}
 
   void Offer(std::size_t seen, int bits) {
@@ -50,15 +50,15 @@ class Likest {
   int second_ = Nearest{}.bits;
 };
 
-// One magnification and one shift of a picture, half widths.
+// This is one magnification and one shift of a picture, in half widths.
 struct Fit {
   double scale = 1.0;
   double shift_u = 0.0;
   double shift_v = 0.0;
 };
 
-// What carries the first of two pairs over exactly, and the second too (the scale in the
-// least-squares sense); nothing where they are closer together than `shortest_base`.
+// Returns the fit that maps the first of two pairs exactly, and the second, too, with the scale by
+// least squares. Returns nothing if they are closer together than `shortest_base`.
 [[nodiscard]] inline std::optional<Fit> FitTwo(const ViewTable& key, const ViewTable& seen,
                                                const Comparison::Pair& a, const Comparison::Pair& b,
                                                double shortest_base) {

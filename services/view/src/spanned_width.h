@@ -6,7 +6,8 @@
 
 namespace trailcast::view {
 
-// The width that a view's picture is taken to have, where nobody says: what its features span.
+// Returns what a view's features span, which is assumed to be the width of a picture whose width is
+// not given.
 [[nodiscard]] double SpannedWidth_px(std::span<const route::ViewFeature> view);
 
 }  // namespace trailcast::view

@@ -11,27 +11,28 @@ namespace trailcast::view {
 namespace {
 
 constexpr std::uint32_t kMostSlots = kWords - 1;  // the last is kNoEntry's
-// In place of a slot's route.
+// These values replace a slot's route.
 constexpr std::uint32_t kDead = 0xFFFFFFFFU;
 constexpr std::uint32_t kFree = 0xFFFFFFFEU;
 constexpr std::size_t kBytesARoute = 192;  // a key, its text, a node of a map
-// Chunks of one word that are looked at: a word so common says next to nothing.
+// So many chunks of one word are searched: a word that is more common tells next to nothing.
 constexpr int kMostChunks = 64;
-// Features of a view that vote, the first, which are the strongest: the time is theirs. More of
-// them where they are of all sizes, of which one key view has a part.
+// So many features of a view vote. They are the first, which are the strongest, as they take most
+// of the time. More vote if they are of all sizes, because a key view has a part of those.
 constexpr std::size_t kMostVoters = 80;
 constexpr std::size_t kMostVotersOfAllSizes = 320;
-// Of a segment, the first: more than teaching keeps would only fill the memory.
+// So many features of a segment are kept, the first ones: more than teaching keeps would only fill
+// the memory.
 constexpr std::size_t kMostFeatures = 64;
-// Added to a segment's number of features where votes are weighed against it.
+// This is added to a segment's number of features when its votes are divided by it.
 constexpr std::uint32_t kUsualFeatures = 10;
 constexpr int kMostVotes = 0xFFFF;
-// Removed segments whose entries stay until so many of them are worth a walk over the tables. Few:
-// a small fleet's server shall not grow by what it no longer has.
+// Entries of removed segments stay until there are so many of them that a pass over the tables is
+// worth it. They are few, so that a small fleet's server does not grow by what it no longer has.
 constexpr std::size_t kSweepFrom = 64;
 
-// What a segment is looked up by: the features of its key views, the strongest of each first; of
-// one that was taught before there were any, its own.
+// Returns what a segment is found by: the features of its key views, the strongest of each first. A
+// segment from before there were any has its own features.
 std::vector<route::Descriptor> DescriptorsOf(const route::Segment& segment) {
   std::vector<route::Descriptor> descriptors;
   const auto add = [&](const route::Descriptor& descriptor) {
@@ -53,7 +54,7 @@ std::vector<route::Descriptor> DescriptorsOf(const route::Segment& segment) {
   return descriptors;
 }
 
-// Above 0: of features whose size is known.
+// Returns the least size above 0, which is that of a feature whose size is known.
 float LeastSize_px(std::span<const route::ViewFeature> view) {
   float least_px = std::numeric_limits<float>::max();
   for (const route::ViewFeature& feature : view) {
@@ -149,7 +150,8 @@ bool ViewIndex::Add(const route::RouteKey& key, const route::Segment& segment) {
   return true;
 }
 
-// The tables are larger than the caches, and words lie anywhere in them: all are fetched at once.
+// The tables are larger than the caches, and words lie anywhere in them, so all of them are
+// prefetched at once.
 void ViewIndex::InsertAll() {
   for (const auto& [word, entry] : entries_) __builtin_prefetch(&heads_[word], 1);
   for (const auto& [word, entry] : entries_) {
@@ -171,7 +173,7 @@ void ViewIndex::Remove(const route::RouteKey& key) {
   if (dead_ > std::max(kSweepFrom, slots_.size() / 4) || full()) Sweep();
 }
 
-// Takes the removed segments' entries out of the tables.
+// Removes the entries of removed segments from the tables.
 void ViewIndex::Sweep() {
   for (std::uint32_t word = 0; word < heads_.size(); ++word) {
     if (heads_[word] != 0) SweepWord(word);
@@ -196,9 +198,9 @@ void ViewIndex::SweepWord(std::uint32_t word) {
   for (const std::uint32_t entry : alive) Insert(word, entry);
 }
 
-// The slots of the features that look like this one, into `alike_`.
+// Collects in `alike_` the slots of the features that look like this one.
 void ViewIndex::FindAlike(const route::Descriptor& descriptor) {
-  constexpr std::size_t kAhead = 8;  // chains fetched into the cache before they are walked
+  constexpr std::size_t kAhead = 8;  // chains that are prefetched ahead of the search
   alike_.clear();
   const auto where = WhereIs(descriptor);
   const std::vector<std::uint32_t>& flips = Flips();
@@ -227,10 +229,11 @@ void ViewIndex::FindAlike(std::uint32_t chunk, std::uint32_t check) {
   }
 }
 
-// Each segment with such a feature gets a vote, the greater the fewer there are.
+// Gives each segment with such a feature a vote, which is greater the fewer such features there
+// are.
 void ViewIndex::Vote(std::uint16_t number, std::size_t octave) {
   constexpr double kFine = 64.0;
-  constexpr std::size_t kAFew = 1000;  // with fewer segments than that all features count
+  constexpr std::size_t kAFew = 1000;  // with fewer segments than this, all features count
   const double rare =
       static_cast<double>(std::max(size(), kAFew)) / static_cast<double>(alike_.size() + 1);
   if (rare <= 1.0) return;
@@ -244,7 +247,8 @@ void ViewIndex::Vote(std::uint16_t number, std::size_t octave) {
   }
 }
 
-// The most that features had which differ in size as those of one key view do: by two octaves.
+// Returns the most votes of features that differ in size as those of one key view do: by two
+// octaves.
 int ViewIndex::Votes(const Tally& tally) {
   int most = 0;
   for (std::size_t octave = 1; octave < kOctaves; ++octave) {

@@ -15,7 +15,7 @@
 namespace trailcast::view {
 namespace {
 
-// Each seen feature with the one of `key` that is most like it.
+// Returns each seen feature with the one of `key` that is most similar to it.
 std::vector<Comparison::Pair> FindAlike(const ViewTable& key, const ViewTable& seen,
                                         const ComparisonOptions& options) {
   constexpr int kNone = std::numeric_limits<int>::max();
@@ -41,8 +41,8 @@ std::vector<Comparison::Pair> FindAlike(const ViewTable& key, const ViewTable& s
   return pairs;
 }
 
-// Pairs as a fit is tried on them, hundreds of times: side by side, so that a processor takes
-// several at once, and filled up with pairs that belong to no fit.
+// These are the pairs in the layout for trying hundreds of fits on them: side by side, so that a
+// processor handles several at once, and padded with pairs that belong to no fit.
 class Row {
  public:
   Row(const ViewTable& key, const ViewTable& seen, std::span<const Comparison::Pair> pairs,
@@ -66,7 +66,7 @@ class Row {
     }
   }
 
-  // The sum over the pairs that belong to it, each the less the further off it is.
+  // Returns the sum over the pairs that belong to the fit. Each counts less the further off it is.
   [[nodiscard]] float Likeness(const Fit& fit) const {
     const auto scale = static_cast<float>(fit.scale);
     const auto shift_u = static_cast<float>(fit.shift_u);
@@ -97,10 +97,10 @@ class Row {
   float per_v_;
   float most_grown_;
   std::vector<float> key_u_, key_v_, seen_u_, seen_v_;
-  std::vector<float> grown_;  // how much larger it is seen than it was; NaN: not known
+  std::vector<float> grown_;  // growth from the key view to the seen one; NaN if not known
 };
 
-// Two views and what may be alike in them.
+// This finds what two views have in common.
 class Agreement {
  public:
   Agreement(const ViewTable& key, const ViewTable& seen, const ComparisonOptions& options)
@@ -183,7 +183,7 @@ class Agreement {
 
 route::View Spread(const route::View& view, std::size_t most) {
   if (view.size() <= most) return view;
-  // Each with the distance to the nearest stronger one.
+  // These have the distance of each to the nearest stronger one.
   std::vector<std::pair<float, std::size_t>> alone;
   alone.reserve(view.size());
   for (std::size_t i = 0; i < view.size(); ++i) {

@@ -7,8 +7,8 @@ namespace {
 
 constexpr int kMostCheckFlips = 4;
 
-// Which of a descriptor's 256 bits are looked at: the even ones of this list make its word in the
-// first table, the odd ones in the second. Chosen one after the other over simulated views for
+// These of a descriptor's 256 bits are used: the even ones of this list make its word in the first
+// table, the odd ones in the second. They were chosen one after the other over simulated views, for
 // being little correlated with those before and seldom different when a feature is seen again.
 constexpr std::array<std::uint8_t, kTables* kWordBits> kBits = {
     209, 208, 44, 200, 83, 148, 93, 46, 68,  189, 15, 38,  238, 233, 254, 149, 253, 25,  210, 107,

@@ -9,7 +9,7 @@
 
 namespace trailcast::view {
 
-// For the index's own sources: what of a descriptor its tables go by.
+// The index's tables go by these parts of a descriptor. They are for the index's own sources.
 
 inline constexpr std::size_t kTables = 2;
 inline constexpr unsigned kWordBits = 20;
@@ -17,18 +17,18 @@ inline constexpr unsigned kCheckBits = 12;
 inline constexpr std::uint32_t kWords = 1U << kWordBits;
 inline constexpr std::uint32_t kCheckMask = (1U << kCheckBits) - 1U;
 
-// Where a feature is found in each table: its word there, and, to tell apart what shares a word,
-// the upper bits of its word in the other.
+// This is where a feature is found in each table: its word there, and its check, which tells apart
+// features that share a word: the upper bits of its word in the other table.
 struct Where {
   std::uint32_t word = 0;
   std::uint32_t check = 0;
 };
 [[nodiscard]] std::array<Where, kTables> WhereIs(const route::Descriptor& descriptor);
 
-// All words with at most two bits set: what is flipped to look around a word.
+// Returns all words with at most two bits set, which are flipped to search around a word.
 [[nodiscard]] const std::vector<std::uint32_t>& Flips();
 
-// Whether two checks that differ in these bits may be of one feature.
+// Returns, for the bits in which two checks differ, whether they may be of one feature.
 [[nodiscard]] const std::array<bool, kCheckMask + 1>& FewFlips();
 
 }  // namespace trailcast::view

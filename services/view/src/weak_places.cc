@@ -8,15 +8,15 @@
 namespace trailcast::view {
 namespace {
 
-// A place is held while five features agree there (services/belief): of a view with fewer than
-// twice as many hardly any picture but the same finds so many, and between two views in a row that
-// have fewer than this in common there may be none that either of them recognises. Odometry bridges
-// that, and its routes have their views further apart. Of the views of a toy car's track, well
-// followed, 0 of 63 have so little in common, of a night drive's 20 of 89.
+// A follower keeps its place while five features agree there (services/belief). If a view has fewer
+// than twice as many, hardly any other picture finds five of them, and if two successive views have
+// fewer than this in common, there may be places between them that neither recognises. Odometry
+// bridges that, and its routes have their views further apart. In views of a toy car's track, which
+// is followed well, 0 of 63 have so little in common; in a night drive's it is 20 of 89.
 constexpr std::size_t kFewestOfAView = 12;
 constexpr int kFewestInCommon = 6;
 constexpr int kFewestInCommonWithOdometry = 3;
-// Of the features that a segment is steered by; an estimate by odometry and three of them drifts.
+// A segment with fewer features is bare: an estimate by odometry and three of them drifts.
 constexpr std::size_t kFewestToSteerBy = 8;
 constexpr double kSamePlace = 1e-3;  // a robot that turned on the spot
 

@@ -23,8 +23,8 @@ using testing::IsEmpty;
 using testing::StartsWith;
 
 // The comments of these rooms are still to be read.
-const std::set<std::string> kRoomsNotReadYet{"services/console", "services/fleet", "services/teach",
-                                             "services/view"};
+const std::set<std::string> kRoomsNotReadYet{"services/console", "services/fleet",
+                                             "services/teach"};
 
 // Where the comment of a line begins, behind its slashes: at its beginning, or two blanks after the
 // code. A string may hold slashes, too.
