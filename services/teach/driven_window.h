@@ -5,11 +5,11 @@
 
 namespace trailcast::teach {
 
-// Mean and spread of something over the time that a robot drove in a segment, and, as short
-// segments say little, over so much of what was driven before that there is a second of it.
+// This computes mean and spread of a value over the time that a robot drove in a segment. As short
+// segments tell little, it includes so much of what was driven before that there is a second of it.
 class DrivenWindow {
  public:
-  // Of a value that held for `dt_s`.
+  // Adds a value that held for `dt_s`.
   void Add(double value, double dt_s) {
     samples_.push_back({value, dt_s});
     driven_s_ += dt_s;
@@ -20,9 +20,9 @@ class DrivenWindow {
     double mean = 0.0;
     double deviation = 0.0;  // RMS about the mean
   };
-  // Nothing: nothing was added in this segment, or less than kLeast_s altogether.
+  // Returns nothing if nothing was added in this segment, or less than kLeast_s altogether.
   [[nodiscard]] std::optional<Spread> Measure() const;
-  // The segment ends.
+  // Ends the segment.
   void Cut();
 
  private:

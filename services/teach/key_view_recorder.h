@@ -10,42 +10,44 @@ namespace trailcast::teach {
 struct KeyViewRecorderOptions {
   // So many features of a view are kept.
   std::size_t features = 40;
-  // Of which fewer than this is no view: too dark, too bland.
+  // A view with fewer features than this is none: it is too dark or too bland.
   std::size_t fewest = 8;
   // The next view is kept when a smaller share of the last one's features is recognised.
   double recognised_share = 0.5;
   // So many of a view's features are from the middle of the picture, half as wide and high, which
-  // is all that a camera with a narrow view has of it.
+  // is all that a camera with a narrow view sees of it.
   std::size_t middle_features = 0;
 
-  // For routes with odometry, whose followers know about where they are: half of the bytes.
+  // Returns options for routes with odometry, whose followers know their place roughly. Its views
+  // take half of the bytes.
   [[nodiscard]] static KeyViewRecorderOptions WithOdometry() { return {32, 8, 0.4, 13}; }
 };
 
-// Why followers may not recognise where they are by what is seen now.
+// This is why followers may not recognise their place by the present frame.
 enum class ViewWeakness {
   kNone,
-  kBland,      // too little to hold on to: dark, blank, out of focus
+  kBland,      // too few features: dark, blank, out of focus
   kUnrelated,  // next to nothing of the last picture is recognised: too fast for the frame rate
 };
 
-// Chooses, while a robot is taught, the views by which followers will recognise where they are: as
-// many as it takes for each frame in between to be recognised by one of its neighbours.
+// This chooses, while a robot is taught, the views by which followers will recognise their place.
+// It keeps as many as it takes for each frame in between to be recognised by one of its neighbours.
 class KeyViewRecorder {
  public:
-  // `width_px`: of the scout's frames.
+  // `width_px` is the width of the scout's frames.
   explicit KeyViewRecorder(int width_px, const KeyViewRecorderOptions& options = {})
       : options_(options), width_px_(width_px) {}
 
-  // What is seen now, the strongest features first. True: the frame's is to be a key view, which
-  // `kept` returns.
+  // Adds the present frame's view, the strongest features first. Returns whether the frame becomes
+  // a key view, which `kept` then returns.
   [[nodiscard]] bool Add(const route::View& view);
-  // The same, whatever is recognised, unless nothing can be: at the route's end.
+  // Keeps the view whatever is recognised, unless it has too few features. This is for the route's
+  // end.
   [[nodiscard]] bool Keep(const route::View& view);
   [[nodiscard]] const route::View& kept() const { return kept_; }
 
-  // Of the last key view's features, the share recognised in the last frame added; 0 where there
-  // is nothing to hold on to.
+  // Returns the share of the last key view's features that was recognised in the last frame added.
+  // It is 0 if the frame has too few features.
   [[nodiscard]] double recognised() const { return recognised_; }
   [[nodiscard]] ViewWeakness weakness() const { return weakness_; }
 
@@ -55,9 +57,9 @@ class KeyViewRecorder {
   KeyViewRecorderOptions options_;
   int width_px_;
   route::View kept_;
-  view::ViewTable table_;  // of `kept_`
+  view::ViewTable table_;  // the table of `kept_`
   double recognised_ = 0.0;
-  int since_kept_ = 0;  // frames
+  int since_kept_ = 0;  // in frames
   ViewWeakness weakness_ = ViewWeakness::kNone;
 };
 

@@ -10,21 +10,23 @@
 
 namespace trailcast::teach {
 
-// How far features shake up and down together: that of each goes its own way as the robot comes
-// closer, smoothly; by what all of them suddenly do, the camera nods. What is slower than about
-// half a second is left out, which is the path's and not the ground's; so is, below 4 frames a
-// second or so, all that shakes.
+// This measures how far features shake up and down together. Each feature moves smoothly on its own
+// as the robot comes closer; a sudden motion of all of them shows that the camera nods. It omits
+// what is slower than about half a second, as that is the path's and not the ground's. Below about
+// 4 frames a second it omits all shaking, too.
 class PictureShake {
  public:
-  // Of the picture in whose pixels the features are.
+  // `height_px` is the height of the picture in whose pixels the features are.
   explicit PictureShake(int height_px) : height_px_(height_px) {}
 
-  // Other features from now on, as they are in the last image.
+  // Replaces the features by others, as they are in the last image.
   void Begin(const std::vector<route::TrackedFeature>& features);
-  // Where those that are left are in the next image. `drives`: counts for the segment.
+  // Adds the places of the remaining features in the next image. They count for the segment if the
+  // robot `drives`.
   void Add(SensorTime stamp, const std::vector<route::TrackedFeature>& features, bool drives);
 
-  // RMS, as a share of the picture's height. Nothing: too few features, or too little was driven.
+  // Returns the RMS as a share of the picture's height. Returns nothing with too few features, or
+  // if the robot drove too little.
   [[nodiscard]] std::optional<double> Measure() const;
   void EndSegment() { window_.Cut(); }
 
@@ -38,10 +40,10 @@ class PictureShake {
   int height_px_;
   std::unordered_map<int, Motion> features_;  // by id
   std::optional<SensorTime> last_;
-  // How fast and how far it has nodded, both forgotten over time.
+  // These are how fast and how far the camera has nodded. Both are forgotten over time.
   double rate_px_per_s_ = 0.0;
   double nod_px_ = 0.0;
-  double seen_s_ = 0.0;  // since it began to sum up
+  double seen_s_ = 0.0;  // since the sums began
   DrivenWindow window_;
 };
 

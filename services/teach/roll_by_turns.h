@@ -7,23 +7,24 @@
 
 namespace trailcast::teach {
 
-// How a camera is rolled about where it looks, to a quarter turn, by the robot's turns: as a robot
-// turns to the left, the picture of an upright camera moves to the right, that of one on its side
-// up or down, and that of one upside down to the left. Pictures that are mirrored, and a witness
-// who takes left for right, look like a camera that is upside down. Of no camera that looks
-// straight up or down.
+// This finds how a camera is rolled about its optical axis, to a quarter turn, by the robot's
+// turns. When a robot turns to the left, the picture of an upright camera moves to the right, that
+// of one on its side up or down, and that of one upside down to the left. Mirrored pictures, and a
+// witness that takes left for right, look like a camera that is upside down. It does not work for a
+// camera that looks straight up or down.
 class RollByTurns {
  public:
-  // `moved`: features that are in both of two pictures of this size; `turned_rad`: how far the
-  // robot turned between them, counter-clockwise positive.
+  // Adds a step. `moved` are features that are in both of two pictures of this size, and
+  // `turned_rad` is how far the robot turned between them, counter-clockwise positive.
   void Add(std::span<const MovedFeature> moved, double turned_rad, double dt_s, int longer_side_px);
 
-  // So far pictures are to be turned clockwise to be upright: 0, 90, 180 or 270. Nothing: no two
-  // turns in a row, of about ten degrees each, have agreed yet. The first answer stays.
+  // Returns how far pictures must be turned clockwise to be upright: 0, 90, 180 or 270. Returns
+  // nothing until two successive turns, of about ten degrees each, have agreed. The first answer
+  // stays.
   [[nodiscard]] std::optional<double> roll_deg() const { return roll_deg_; }
 
  private:
-  // Lately, in one frame or several.
+  // This is what moved lately, in one frame or several.
   struct Moved {
     double turned_rad = 0.0;
     double right_px = 0.0;

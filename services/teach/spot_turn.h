@@ -5,17 +5,17 @@
 namespace trailcast::teach {
 
 struct SpotTurnOptions {
-  double largest_radius_m = 0.1;  // of the arc: a smaller one is a turn on the spot
-  double least_rad = 0.2;         // turned so, before it counts as one
-  double driven_m = 0.01;         // without such an arc: the turn is over
+  double largest_radius_m = 0.1;  // an arc with a smaller one is a turn on the spot
+  double least_rad = 0.2;         // turned in such arcs before they count as a turn
+  double driven_m = 0.01;         // driven without such an arc, this ends the turn
 };
 
-// Tells a robot that turns on the spot from one that drives, by its odometry.
+// This tells a robot that turns on the spot from one that drives, by its odometry.
 class SpotTurnWatch {
  public:
   enum class State {
     kDrives,
-    kMayTurn,  // it has begun to, too little to say
+    kMayTurn,  // has begun to, but too little to tell
     kTurns,
   };
 
@@ -23,7 +23,7 @@ class SpotTurnWatch {
 
   State Add(const motion::OdometryIncrement& step);
   [[nodiscard]] State state() const { return state_; }
-  // Since it may have begun to turn; counter-clockwise positive.
+  // Returns the turn since it may have begun, counter-clockwise positive.
   [[nodiscard]] double turned_rad() const { return turned_rad_; }
 
  private:

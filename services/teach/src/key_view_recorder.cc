@@ -34,7 +34,7 @@ bool KeyViewRecorder::Keep(const route::View& view) {
 }
 
 bool KeyViewRecorder::Add(const route::View& view) {
-  constexpr double kRelated = 0.15;  // of two pictures in a row: chance has less
+  constexpr double kRelated = 0.15;  // share in two successive pictures; chance gives less
   weakness_ = view.size() < options_.fewest ? ViewWeakness::kBland : ViewWeakness::kNone;
   if (kept_.empty()) return Keep(view);
   ++since_kept_;

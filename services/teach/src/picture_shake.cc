@@ -7,24 +7,25 @@
 namespace trailcast::teach {
 namespace {
 
-// What is slower than 2 pi times this is forgotten, twice: nods of 1 Hz are halved once.
+// A motion with a longer period than 2 pi times this is forgotten, twice: nods of 1 Hz are halved
+// once.
 constexpr double kForget_s = 0.3;
-// Then nothing is left of what was not seen before.
+// After this long, nothing is left of what was before the sums began.
 constexpr double kSettle_s = 3.0 * kForget_s;
 constexpr std::size_t kFewest = 8;
-// Of the features, those that come past most slowly: what is far away, or straight ahead, tells a
-// nod from a robot that speeds up or brakes.
+// This share of the features, those that come past most slowly, is used. Features that are far
+// away, or straight ahead, tell a nod from a robot that accelerates or brakes.
 constexpr double kSlowShare = 0.5;
-// Between two pictures; after more, nothing is known of what was meanwhile.
+// After more than this between two pictures, the motion in between is unknown.
 constexpr double kLongest_s = 0.25;
 
-// Of how fast one feature moves down the picture.
+// This is the change of the speed at which one feature moves down the picture.
 struct Change {
-  double passing_px_per_s = 0.0;  // beside the camera's nodding, by itself
+  double passing_px_per_s = 0.0;  // its own speed, without the camera's nodding
   double by_px_per_s = 0.0;
 };
 
-// What they have in common. Nothing: they are too few to tell.
+// Returns what the changes have in common, or nothing if they are too few to tell.
 std::optional<double> CommonOf(std::vector<Change> changes) {
   if (changes.size() < kFewest) return std::nullopt;
   const auto slow = std::max<std::size_t>(

@@ -32,7 +32,7 @@ PictureFlow FlowOf(std::span<const MovedFeature> features, double noise_px) {
   Eigen::Vector3d flow = Eigen::Vector3d::Zero();
   double width_px = kWidest * noise_px;
   for (int i = 0; i < kIterations && !features.empty(); ++i) {
-    // Whoever has one feature has a shift and no growth.
+    // A single feature gives a shift and no growth.
     Eigen::Matrix3d information = 1e-9 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const auto& [before, now] : features) {

@@ -12,16 +12,18 @@ namespace {
 
 constexpr double kFlowNoise_px = 0.3;  // of a tracked feature
 constexpr std::size_t kFewestMoved = 8;
-// What moves further between two pictures is not followed, and what is taken for it is another.
+// A feature that moves further between two pictures is lost, and one that is tracked there is
+// another.
 constexpr double kFurthest_px = 40.0;
-// A turn that says something: a delay between the witnesses, and what a robot passes, weigh less.
-// What is longer ago than the time constant is forgotten, for that adds up.
+// Beyond such a turn, a delay between the witnesses and what a robot passes weigh less. Turns
+// longer ago than the time constant are forgotten, as those errors add up.
 constexpr double kTurn_rad = 0.15;
 constexpr double kLately_s = 3.0;
-// Of the flow that a usual camera would have: others have lenses from fisheyes to telephotos.
+// These are shares of the flow that a usual camera has. Other cameras have lenses from fisheyes to
+// telephotos.
 constexpr double kLeastFlow = 0.25;
 constexpr double kMostFlow = 4.0;
-constexpr double kOffAxis_deg = 30.0;  // of a camera that is crooked besides
+constexpr double kOffAxis_deg = 30.0;  // for a camera that is also mounted at an angle
 
 }  // namespace
 
@@ -40,14 +42,14 @@ void RollByTurns::Add(std::span<const MovedFeature> moved, double turned_rad, do
   lately_ = {};
 }
 
-// Nothing: the picture did not move as any camera's would.
+// Returns nothing if the picture did not move as any camera's would.
 std::optional<double> RollByTurns::RollIn(const Moved& lately, int longer_side_px) const {
   const double usual_px = route::kUsualFocalShare * longer_side_px * lately.turned_rad;
   const double right = lately.right_px / usual_px;
   const double down = lately.down_px / usual_px;
   const double flow = std::hypot(right, down);
   if (flow < kLeastFlow || flow > kMostFlow) return std::nullopt;
-  // Turned clockwise by so much, what moves there moves to the right.
+  // A picture that is turned clockwise by this moves to the right.
   const double clockwise_deg = Degrees(std::atan2(-down, right));
   const double quarters = std::round(clockwise_deg / 90.0);
   if (std::abs(clockwise_deg - 90.0 * quarters) > kOffAxis_deg) return std::nullopt;

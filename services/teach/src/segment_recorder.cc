@@ -14,7 +14,7 @@ namespace {
 constexpr int kFewestKnots = 3;
 constexpr std::size_t kFewestToTellStill = 4;
 
-// Less than this between two frames is a robot that waits: neither time nor track goes on.
+// A robot that moves less than this between two frames waits: neither time nor track goes on.
 constexpr double kStep_m = 1e-4;
 constexpr double kStep_rad = 1e-4;
 
@@ -34,7 +34,7 @@ void SegmentRecorder::Begin(SensorTime stamp, std::vector<route::DescribedFeatur
   moved_odometry_ = odometry;
   if (other_way_from_) way_ = -way_;
   other_way_from_.reset();
-  if (!turning_) turn_ = SpotTurnWatch();  // what may have been the beginning of a turn is driven
+  if (!turning_) turn_ = SpotTurnWatch();  // a possible beginning of a turn counts as driven
 }
 
 bool SegmentRecorder::Moved(const Features& tracked,
@@ -55,7 +55,7 @@ bool SegmentRecorder::Moved(const Features& tracked,
   return *middle >= still_px_;
 }
 
-// Since the robot last moved, by its picture.
+// Returns the turn since the robot last moved, by its picture.
 double SegmentRecorder::SeenTurn(const std::vector<route::TrackedFeature>& tracked) const {
   std::vector<MovedFeature> moved;
   for (const route::TrackedFeature& feature : tracked) {
@@ -71,7 +71,7 @@ bool SegmentRecorder::LongEnough() const {
                          : Seconds(moments_.back().moving) >= options_.shortest_s;
 }
 
-// Of a robot that does, or may do so.
+// Handles a robot that turns on the spot, or may do so.
 SegmentRecorder::Event SegmentRecorder::TurnOnTheSpot(SpotTurnWatch::State before) {
   using State = SpotTurnWatch::State;
   if (before == State::kDrives && turn_.state() != State::kDrives) turn_from_ = moments_.size();
@@ -88,7 +88,7 @@ SegmentRecorder::Event SegmentRecorder::TurnOnTheSpot(SpotTurnWatch::State befor
   return Event::kGoesOn;
 }
 
-// Of a robot that drives, and not only on. Further on than all that it has driven, `step` becomes
+// Handles a robot that drives, perhaps back. Once it is further than it has been, `step` becomes
 // what it has come further.
 SegmentRecorder::Way SegmentRecorder::Follow(const motion::Pose2& from, const motion::Pose2& now,
                                              motion::OdometryIncrement& step) {
@@ -107,8 +107,8 @@ SegmentRecorder::Way SegmentRecorder::Follow(const motion::Pose2& from, const mo
   return Way::kOn;
 }
 
-// The robot, now so far back from the furthest that it came, goes on the other way: where, of this
-// segment, it is now, and how it heads there.
+// Returns the robot's place in this segment, with its heading, when it goes on the other way.
+// `back` is its pose relative to the furthest that it came.
 SegmentRecorder::Moment SegmentRecorder::PlaceOf(const motion::Pose2& back) const {
   Moment place;
   place.distance_m = moments_.back().distance_m + way_ * back.x_m;
@@ -164,7 +164,8 @@ SegmentRecorder::Event SegmentRecorder::Add(SensorTime stamp,
   const bool few = static_cast<double>(tracked.size()) <
                    options_.survival_share * static_cast<double>(first_.size());
   const bool ends = distance_m() >= options_.longest_m || (few && LongEnough());
-  const bool not_begun = few && moments_.size() == 1;  // those that stood by it have gone
+  // Features of people who stood by a standing robot are lost when they leave.
+  const bool not_begun = few && moments_.size() == 1;
   return ends || not_begun ? Event::kEnds : Event::kGoesOn;
 }
 
@@ -207,7 +208,7 @@ route::Feature SegmentRecorder::Store(const route::DescribedFeature& feature, in
     const double wanted = static_cast<double>(knot) / (knots - 1);
     while (next + 1 < moments_.size() && FractionAt(moments_[next]) < wanted) ++next;
     const double s = FractionAt(moments_[next]);
-    // Knots come in strictly rising s; a robot that stood still gives fewer of them.
+    // Knots come in strictly rising s, so a robot that stood gets fewer of them.
     if (s > stored.track.back().s && s < 1.0 && next + 1 < moments_.size()) {
       stored.track.push_back(knot_of(moments_[next], s));
     }
@@ -216,7 +217,7 @@ route::Feature SegmentRecorder::Store(const route::DescribedFeature& feature, in
   return stored;
 }
 
-// Those seen before the segment's first image stand at its beginning.
+// Views that were seen before the segment's first image are put at its beginning.
 std::vector<route::KeyView> SegmentRecorder::TakeKeyViews() {
   std::vector<route::KeyView> views;
   for (route::View& view : std::exchange(views_before_, {}))
@@ -234,8 +235,8 @@ std::size_t SegmentRecorder::MostFeatures(const route::Segment& segment) const {
   return std::max(options_.fewest_kept, by_length);
 }
 
-// Position of the first moment that is not of the segment, but was seen before it was clear that
-// the robot turns on the spot, or goes on the other way.
+// Returns the position of the first moment that is not part of the segment, because it was seen
+// before it was clear that the robot turns on the spot or goes on the other way.
 std::size_t SegmentRecorder::End() const {
   if (turning_) return std::min(turn_from_, moments_.size());
   std::size_t end = moments_.size();

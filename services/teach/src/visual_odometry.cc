@@ -17,11 +17,11 @@ enum CameraIndex { kTowardsU, kTowardsV, kWidening, kAhead };
 
 constexpr int kIterations = 8;
 // The first iterations let nearly all features count alike; then the weight narrows. The noise is
-// estimated only once it has.
+// estimated only after that.
 constexpr double kWidest_sigmas = 24.0;
 constexpr double kNarrows = 0.6;
 constexpr double kTellsNoise_sigmas = 10.0;
-constexpr double kSlowest = 0.05;        // a share of the usual speed: the way always rises
+constexpr double kSlowest = 0.05;        // share of the usual speed, so the path always goes on
 constexpr double kSmallestShrink = 0.1;  // of a depth along a segment
 constexpr double kNearestBeyond_m = 0.2;
 constexpr double kUsualSpeedLearns_per_s = 0.2;
@@ -31,7 +31,7 @@ constexpr double kUsualSpeedLearns_per_s = 0.2;
 struct VisualOdometry::Landmark {
   struct Step {  // over one interval
     int interval = 0;
-    double u = 0.0;  // in the middle
+    double u = 0.0;  // in the interval's middle
     double v = 0.0;
     double du = 0.0;
     double dv = 0.0;
@@ -102,7 +102,7 @@ struct VisualOdometry::Equations {
 VisualOdometry::VisualOdometry(int width_px, const VisualOdometryOptions& options)
     : options_(options), scale_(width_px / 320.0), focal_px_(route::kUsualFocalShare * width_px) {}
 
-// A feature that the last segment saw where this one begins keeps its depth.
+// Begins a feature. One that the last segment saw where this one begins keeps its depth.
 VisualOdometry::Landmark VisualOdometry::Meet(const route::TrackedFeature& feature) const {
   Landmark landmark;
   landmark.id = feature.id;
@@ -151,7 +151,7 @@ VisualOdometry::Fit VisualOdometry::Prepare(std::span<const Moment> moments) con
     }
     if (!landmark.steps.empty()) fit.landmarks.push_back(std::move(landmark));
   }
-  // The sums below do not depend on the order in which a table of features happens to be.
+  // Sorting makes the sums below independent of the order in a hash table.
   std::sort(fit.landmarks.begin(), fit.landmarks.end(),
             [](const Landmark& a, const Landmark& b) { return a.id < b.id; });
 
@@ -167,7 +167,7 @@ VisualOdometry::Fit VisualOdometry::Prepare(std::span<const Moment> moments) con
   return fit;
 }
 
-// What is believed before anything was seen.
+// Adds the prior.
 void VisualOdometry::Expect(const Fit& fit, Equations& equations) const {
   const Eigen::VectorXd& x = fit.unknowns;
   const double mount_px = options_.mount_rad * focal_px_;
@@ -192,9 +192,9 @@ void VisualOdometry::Expect(const Fit& fit, Equations& equations) const {
   equations.Expect(fit.speed(0), speed_mps_ - x[fit.speed(0)], speed_known_ * usual_mps_);
 }
 
-// What the features say, by the equations of the class's comment.
+// Adds what the features tell, by the equations of the class's comment.
 void VisualOdometry::Measure(Fit& fit, double cauchy_sigmas, Equations& equations) const {
-  constexpr int kConcerned = kCamera + kOfInterval + 2;  // of a step's unknowns
+  constexpr int kConcerned = kCamera + kOfInterval + 2;  // unknowns in a step's equations
   using Slopes = Eigen::Matrix<double, kConcerned, 1>;
   const Eigen::VectorXd& x = fit.unknowns;
   const double f = focal_px_;

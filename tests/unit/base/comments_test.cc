@@ -23,8 +23,7 @@ using testing::IsEmpty;
 using testing::StartsWith;
 
 // The comments of these rooms are still to be read.
-const std::set<std::string> kRoomsNotReadYet{"services/console", "services/fleet",
-                                             "services/teach"};
+const std::set<std::string> kRoomsNotReadYet{"services/console", "services/fleet"};
 
 // Where the comment of a line begins, behind its slashes: at its beginning, or two blanks after the
 // code. A string may hold slashes, too.
