@@ -12,9 +12,10 @@
 
 namespace trailcast::fleet {
 
-// Asks every server in reach, again until one replies, for one that joins late. `client` and
-// `request` are those in the question, as a Reply has them. Errors: kUnavailable when no server
-// answers within `timeout` (and how to look further); what a server says it could not do.
+// Asks every server in reach, and repeats the question until one replies, because a server may join
+// late. `client` and `request` are those in the question, as a Reply has them. Fails with
+// kUnavailable when no server answers within `timeout`, which says how to look further, and with
+// what a server says it could not do.
 template <typename Reply>
 [[nodiscard]] Result<Reply> Ask(exchange::RouteExchange& exchange, const AgentId& client,
                                 std::uint64_t request, const exchange::Message& question,
@@ -26,7 +27,7 @@ template <typename Reply>
   auto ask_at = Clock::now();
   while (Clock::now() < deadline) {
     if (Clock::now() >= ask_at) {
-      // A question that could not be handed over is asked again like one that was not answered.
+      // A question that could not be sent is repeated, as one that was not answered.
       const Result<void> asked = exchange.Publish(question);
       if (!asked && asked.error().code != ErrorCode::kUnavailable) {
         return tl::unexpected(asked.error());

@@ -5,10 +5,11 @@
 
 namespace trailcast::fleet {
 
-// From the system's random source: operators' processes in containers have the same number, and
-// thus the same name. 1 or more.
+// Returns a number from the system's random source, at least 1. Processes of operators in
+// containers have the same process number, and thus the same name, so that does not tell them
+// apart.
 [[nodiscard]] std::uint64_t DrawNumber();
-// 16 hexadecimal digits.
+// Returns 16 hexadecimal digits.
 [[nodiscard]] std::string DrawMissionId();
 
 }  // namespace trailcast::fleet

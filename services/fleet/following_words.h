@@ -6,8 +6,8 @@
 
 namespace trailcast::fleet {
 
-// What a robot follows by, in one sentence for people: "Odometry: trusted". Empty of one that does
-// not follow a route now.
+// Returns in one sentence for people what a robot follows by, such as "Odometry: trusted". It is
+// empty for a robot that follows no route now.
 [[nodiscard]] std::string FollowingText(const exchange::AgentStatus& status);
 
 }  // namespace trailcast::fleet

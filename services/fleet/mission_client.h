@@ -16,23 +16,25 @@ namespace trailcast::fleet {
 
 struct SendWatch {
   std::chrono::milliseconds timeout{5000};  // for the first answer
-  bool to_its_end = false;                  // after that, however long it takes
+  bool to_its_end = false;                  // watches the mission to its end, however long it takes
   std::function<bool()> stop = [] { return false; };
   std::function<void(const mission::Report&)> news = [](const mission::Report&) {};
 };
 
-// Says it again until the robot has answered, or, as long as that is out of reach, a server keeps
-// it; returns what is known of it then. kUnavailable where neither is heard, or servers put it off.
+// Sends the mission repeatedly until the robot has answered or, while the robot is out of reach, a
+// server keeps it. Returns what is known of it then. Fails with kUnavailable if neither is heard,
+// or if servers put it off.
 [[nodiscard]] Result<mission::Report> SendMission(exchange::RouteExchange& exchange,
                                                   const mission::Mission& mission,
                                                   const SendWatch& watch);
 
-// At most `limit`, the newest first. kUnavailable where no server answers, or one that keeps none.
+// Returns at most `limit` missions, the newest first. Fails with kUnavailable if no server answers,
+// or one that keeps no missions.
 [[nodiscard]] Result<std::vector<mission::Record>> AskForMissions(
     exchange::RouteExchange& exchange, const AgentId& client, mission::Query query,
     std::size_t limit, std::chrono::milliseconds timeout);
 
-// The same of what robots were told to do now.
+// Returns commands to robots in the same way.
 [[nodiscard]] Result<std::vector<mission::GivenCommand>> AskForCommands(
     exchange::RouteExchange& exchange, const AgentId& client, mission::Query query,
     std::size_t limit, std::chrono::milliseconds timeout);
@@ -41,12 +43,12 @@ struct SendWatch {
 // in the order of its queue.
 void SortAsQueues(std::vector<mission::Record>& missions);
 
-// "robot1: under way: ..", without what there is not to say.
+// Returns "robot1: under way: ..", without parts that are empty.
 [[nodiscard]] std::string ReportText(const mission::Report& report);
-// Objects for programs, without line breaks.
+// These return objects for programs, without line breaks.
 [[nodiscard]] nlohmann::ordered_json ReportJson(const mission::Report& report);
 [[nodiscard]] nlohmann::ordered_json MissionJson(const mission::Record& record);
-// A table for people, and an array of objects for programs.
+// These return tables for people, and arrays of objects for programs.
 [[nodiscard]] std::string MissionsTable(const std::vector<mission::Record>& missions,
                                         std::int64_t now_unix_ms);
 [[nodiscard]] std::string CommandsTable(const std::vector<mission::GivenCommand>& commands,

@@ -13,7 +13,7 @@
 
 namespace trailcast::fleet {
 
-// Whom an operator means.
+// This is whom an operator commands.
 struct NowTarget {
   exchange::NowWhom whom = exchange::NowWhom::kAll;
   std::string name{};  // as NowCommand has it
@@ -23,24 +23,24 @@ struct RobotsWord {
   std::string robot;
   bool answered = false;
   bool refused = false;
-  std::string detail{};  // its own words; of one that did not answer, what is known of it last
-  bool known = true;     // false: nobody of this name was ever heard
+  std::string detail{};  // its own words or, if it did not answer, what was last known of it
+  bool known = true;     // false if no robot of this name was ever heard
 };
 
-// What became of a command that several robots were given: the worst that became of it anywhere.
+// This is the outcome of a command to several robots: the worst of them.
 enum class Obeyed : std::uint8_t { kByAll, kNotByAll, kUnanswered };
 [[nodiscard]] Obeyed ObeyedBy(const std::vector<RobotsWord>& words);
 
-// "last seen 5 s ago, moving at 0.40 m/s"; without the time where it is heard.
+// Returns "last seen 5 s ago, moving at 0.40 m/s", without the time if the robot is heard.
 [[nodiscard]] std::string LastSeenText(const exchange::AgentStatus& status,
                                        std::optional<std::chrono::milliseconds> ago);
-// "last known on its mission 'follow hall', under way", as a server tells of a robot that is not
-// heard.
+// Returns "last known on its mission 'follow hall', under way", as a server tells of a robot that
+// is not heard.
 [[nodiscard]] std::string LastKnownText(const mission::Record& record);
 
-// Tells robots what to do now, at once and again until each has answered or `timeout` has passed,
-// and returns what they said, by name: each that was named, and, of a route or of all, each
-// follower that is heard, and each that a server has on a mission. kUnavailable where nobody is.
+// Commands robots at once, and repeats it until each has answered or `timeout` has passed. Returns
+// what they said, by name: each robot that was named and, for a route or for all, each follower
+// that is heard, and each that a server has on a mission. Fails with kUnavailable if there is none.
 [[nodiscard]] Result<std::vector<RobotsWord>> TellRobots(exchange::RouteExchange& exchange,
                                                          const AgentId& self,
                                                          exchange::NowOrder order,
@@ -48,11 +48,11 @@ enum class Obeyed : std::uint8_t { kByAll, kNotByAll, kUnanswered };
                                                          const std::string& reason,
                                                          std::chrono::milliseconds timeout);
 
-// One sentence on what became of a stop: who stands, and who may be moving.
+// Returns one sentence on the outcome of a stop: which robots stand, and which may be moving.
 [[nodiscard]] std::string StandText(const std::vector<RobotsWord>& words);
-// A line a robot.
+// Returns one line for each robot.
 [[nodiscard]] std::string WordsText(const std::vector<RobotsWord>& words);
-// For programs: an object, and an array of them.
+// These return an object, and an array of objects, for programs.
 [[nodiscard]] nlohmann::ordered_json WordJson(const RobotsWord& word);
 [[nodiscard]] nlohmann::ordered_json WordsJson(const std::vector<RobotsWord>& words);
 

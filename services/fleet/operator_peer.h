@@ -7,13 +7,13 @@
 
 namespace trailcast::fleet {
 
-// A member of the network for one command.
+// This is a member of the network for one command.
 struct OperatorPeer {
   AgentId self;
   std::unique_ptr<exchange::RouteExchange> exchange;
 };
-// Under a name of its own: two operators may be at work at the same time, and one process may be
-// several members, each with another `number` below 100.
+// Joins under a name of its own, because two operators may be at work at the same time. One process
+// may be several members, each with another `number` below 100.
 [[nodiscard]] Result<OperatorPeer> JoinAsOperator(const program::CommonOptions& common,
                                                   const exchange::TopicUse& use, int number = 0);
 

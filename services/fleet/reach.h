@@ -14,13 +14,13 @@
 
 namespace trailcast::fleet {
 
-// Who hears whom in a fleet, how late and over what.
+// This is which members of a fleet hear which others, how late, and over what.
 struct Reach {
-  // A server or a robot.
+  // This is a server or a robot.
   struct Member {
     AgentId name{};
-    std::optional<exchange::AgentRole> role{};  // nothing: nobody hears it
-    std::optional<bool> star{};                 // it meets route servers alone; nothing: no answer
+    std::optional<exchange::AgentRole> role{};  // empty if nobody hears it
+    std::optional<bool> star{};  // it meets route servers alone; empty without an answer
     bool operator==(const Member&) const = default;
   };
   struct Hearing {
@@ -28,37 +28,39 @@ struct Reach {
     exchange::HeardAgent heard{};
     bool operator==(const Hearing&) const = default;
   };
-  // Somebody who should hear another, and does not or does not say so.
+  // This is a member that should hear another, and does not or does not report it.
   struct Trouble {
-    AgentId member{};  // whom to look at
+    AgentId member{};  // the member to look at
     std::string what{};
     std::string advice{};
     bool operator==(const Trouble&) const = default;
   };
-  std::vector<Member> members{};    // by name
-  std::vector<Hearing> hearings{};  // by who is heard, then by who hears
+  std::vector<Member> members{};    // sorted by name
+  std::vector<Hearing> hearings{};  // by heard member, then by hearing member
   std::vector<Trouble> troubles{};
 
-  // All hear each other who have to.
+  // Returns whether all members that have to hear each other do.
   [[nodiscard]] bool complete() const { return !members.empty() && troubles.empty(); }
 };
 
-// Asks all that are there, directly and through servers, and gathers what they answer. No I/O, no
-// clock.
+// This asks all members, directly and through servers, and collects their answers. It has no I/O
+// and no clock.
 class ReachSurvey {
  public:
   using Time = exchange::ReachDesk::Time;
 
-  // `expected`: who shall be there, whether or not anybody hears them.
+  // The `expected` members are in the result whether or not anybody hears them.
   ReachSurvey(AgentId self, std::set<AgentId> expected)
       : desk_(self, exchange::AgentRole::kOperator),
         self_(std::move(self)),
         expected_(std::move(expected)) {}
 
-  // The next question, to be published now; who answers the first one may not be heard yet.
+  // Returns the next question, to be published at once. A member that answers the first one may not
+  // be heard yet.
   [[nodiscard]] exchange::ReachRequest Ask(Time now);
   void Hear(const exchange::Message& message, Time now);
-  // What this program hears itself is in it under its own name, though nobody need hear it.
+  // Returns the result, which has what this program hears itself under its own name, though no
+  // member need hear it.
   [[nodiscard]] Reach Result(Time now) const;
 
  private:
@@ -75,16 +77,18 @@ class ReachSurvey {
   std::map<AgentId, Answer> answers_;
 };
 
-// Servers are to hear everybody and to be heard by everybody, members of a mesh each other.
+// Returns who should hear another and does not. Servers must hear everybody and be heard by
+// everybody; members of a mesh must hear each other.
 [[nodiscard]] std::vector<Reach::Trouble> TroublesOf(const Reach& reach);
 
-// Of all who hear each other it is known from where, and to and from servers how long it takes
-// there and back, which is so after a question or two.
+// Returns whether the addresses of all members that hear each other, and the round trips to
+// servers, are known. They are after a question or two.
 [[nodiscard]] bool IsMeasured(const Reach& reach);
 
-// A line a hearing below a line of heads, then the troubles and what to do. Empty where nobody is.
+// Returns a table with a line for each hearing, then the troubles and what to do. It is empty if
+// there is no member.
 [[nodiscard]] std::string ReachText(const Reach& reach);
-// For programs; null is what is not known.
+// Returns an object for programs, in which null is unknown.
 [[nodiscard]] nlohmann::ordered_json ReachJson(const Reach& reach);
 
 }  // namespace trailcast::fleet

@@ -7,7 +7,7 @@
 
 namespace trailcast::fleet {
 
-// What a robot does, as pages, programs and commands say it.
+// This is the run status of a robot in the words of pages, programs and commands.
 enum class RobotState : std::uint8_t {
   kOffline,  // it is not heard
   kStopped,
@@ -26,7 +26,7 @@ inline constexpr std::array kRobotStates{"offline",   "stopped", "paused",    "s
                                          "available", "waiting", "teaching",  "driving",
                                          "arrived",   "failed",  "shut down", "fault"};
 
-// `offline`: nothing is heard of it. `last`: the newest mission that it has taken; null: none.
+// A robot is `offline` if it is not heard. `last` is the newest mission that it has taken, or null.
 [[nodiscard]] RobotState RobotStateOf(const exchange::AgentStatus& status, bool offline,
                                       const mission::Report* last);
 [[nodiscard]] const char* ToText(RobotState state);

@@ -10,20 +10,21 @@
 
 namespace trailcast::fleet {
 
-// What robots say of themselves, and what a server has of their missions: of one that is not heard
-// that is all there is. No I/O, no clock: everything that is heard goes to Hear.
+// This collects what robots report and what a server has of their missions, which is all there is
+// for a robot that is not heard. It has no I/O and no clock; Hear takes every message that is
+// heard.
 class RobotsThere {
  public:
-  // Strangers can make up names: more are not kept.
+  // Strangers can make up names, so no more robots than this are kept.
   static constexpr std::size_t kMost = 1024;
 
   void Hear(const exchange::Message& message);
   [[nodiscard]] std::size_t size() const { return robots_.size(); }
-  // Not all of them may be heard.
+  // Returns whether any is heard, for a server may have told of all of them.
   [[nodiscard]] bool any_heard() const;
-  // A line a robot, by name, below a line of heads. Empty where there is none.
+  // Returns a table with a line for each robot, sorted by name. It is empty if there is none.
   [[nodiscard]] std::string Text() const;
-  // For programs: an array of objects; null is what a robot does not tell.
+  // Returns an array of objects for programs, in which null is what a robot does not report.
   [[nodiscard]] nlohmann::ordered_json Json() const;
 
  private:

@@ -11,34 +11,35 @@
 
 namespace trailcast::fleet {
 
-// What is heard of one mission that was sent. No I/O, no clock: the mission is to be published,
-// again and again, while everything that is heard goes to Hear.
+// This follows one mission that is sent. It has no I/O and no clock: the mission is to be published
+// repeatedly, while Hear takes every message that is heard.
 class Sending {
  public:
   explicit Sending(mission::Mission mission) : mission_(std::move(mission)) {}
 
   [[nodiscard]] const mission::Mission& mission() const { return mission_; }
-  // Whether that was news of it.
+  // Takes a message, and returns whether it was news of the mission.
   bool Hear(const exchange::Message& message);
-  // It is known what becomes of it at first: the robot does it or has refused it, or has taken it
-  // and not refused it for a while, or did not answer while a server keeps it, or waits in its
-  // queue at a server, or neither within `timeout`.
+  // Returns whether the first outcome is known. The robot does the mission or has refused it, or
+  // has accepted it and not refused it for a while; or it did not answer while a server keeps the
+  // mission, or the mission waits in its queue at a server; or neither answered within `timeout`.
   [[nodiscard]] bool Answered(std::chrono::milliseconds since,
                               std::chrono::milliseconds timeout) const;
-  // How long to wait before it is said again: what was lost is said soon, and while it is watched a
-  // server or agent that has started again hears it anew.
+  // Returns how long to wait before the mission is sent again. A lost message is repeated soon, and
+  // while the mission is watched, a server or agent that has restarted hears it anew.
   [[nodiscard]] std::chrono::milliseconds SayAgain() const;
-  // By the robot's word, or a server's, which may not have what the robot heard itself, and which
-  // the robot has not contradicted meanwhile.
+  // Returns whether the mission has ended, by the robot's report or by a server's. A server may not
+  // have what the robot heard itself, so its report counts if the robot has not contradicted it
+  // meanwhile.
   [[nodiscard]] bool Ended(std::chrono::milliseconds since) const;
   [[nodiscard]] const std::optional<mission::Report>& last() const { return last_; }
-  // `last`; where there is none, kUnavailable: why a server has put it off, or that nobody answered
-  // within `timeout`.
+  // Returns `last`. Without it, fails with kUnavailable: either why a server has put the mission
+  // off, or that nobody answered within `timeout`.
   [[nodiscard]] Result<mission::Report> Outcome(std::chrono::milliseconds timeout) const;
 
  private:
   mission::Mission mission_;
-  std::string put_off_;  // why; empty: no server has said so
+  std::string put_off_;  // the reason; empty if no server has put it off
   std::optional<mission::Report> last_;
 };
 

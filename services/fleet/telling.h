@@ -11,8 +11,8 @@
 
 namespace trailcast::fleet {
 
-// What an operator tells robots to do now, and what they answer. No I/O, no clock: commands() are
-// to be published, again and again, while everything that is heard goes to Hear.
+// This is an operator's command to robots, with their answers. It has no I/O and no clock:
+// commands() are to be published repeatedly, while Hear takes every message that is heard.
 class Telling {
  public:
   Telling(const AgentId& self, exchange::NowOrder order, std::vector<NowTarget> targets,
@@ -20,18 +20,21 @@ class Telling {
 
   [[nodiscard]] const std::vector<exchange::NowCommand>& commands() const { return commands_; }
   void Hear(const exchange::Message& message);
-  // A robot that this is meant for is waited for and named, heard or not: `last_known` says in a
-  // line what was last known of it.
+  // Waits for the answer of a robot that the command is for, and names it, whether or not it is
+  // heard. `last_known` says in one line what was last known of it.
   void Expect(const std::string& robot, const std::string& last_known);
-  // A robot of this name there is, meant or not.
+  // Notes that there is a robot of this name, whether or not the command is for it.
   void Note(const std::string& robot) { names_.insert(robot); }
-  // The same of one that a server has on a mission, if it is meant.
+  // Does the same for a robot that a server has on a mission, if the command is for it.
   void Expect(const mission::Record& record);
-  // All are named; else, of a route or of all, it has to be found out who there is.
+  // Returns whether all robots are named. A command to a route or to all first has to find out
+  // which robots there are.
   [[nodiscard]] bool only_named() const;
-  // Of a route or of all it takes a while to hear who is there.
+  // Returns whether all have answered. For a route or for all it takes a while to hear which robots
+  // there are.
   [[nodiscard]] bool AllAnswered(std::chrono::milliseconds since) const;
-  // By name. Empty where nobody was heard that is meant.
+  // Returns the answers sorted by name. They are empty if no robot was heard that the command is
+  // for.
   [[nodiscard]] std::vector<RobotsWord> Words() const;
 
  private:
@@ -44,7 +47,7 @@ class Telling {
   std::vector<exchange::NowCommand> commands_;
   std::map<std::string, RobotsWord> words_;
   std::set<std::string> names_;
-  // The missions in each robot's queue that servers have cancelled for this command.
+  // These are the missions in each robot's queue that servers have cancelled for this command.
   std::map<std::string, std::set<std::string>> dropped_;
 };
 

@@ -13,34 +13,35 @@
 
 namespace trailcast::fleet {
 
-// Asks every server in reach for its routes, and gives the first reply. The question is repeated
-// until then, for a server that joins late. Errors: kUnavailable when no server answers within
-// `timeout` (and how to look further); what a server says it could not do.
+// Asks every server in reach for its routes, and returns the first reply. The question is repeated
+// until then, because a server may join late. Fails with kUnavailable when no server answers within
+// `timeout`, which says how to look further, and with what a server says it could not do.
 [[nodiscard]] Result<exchange::CatalogReply> AskCatalog(exchange::RouteExchange& exchange,
                                                         const AgentId& client,
                                                         const route::RouteQuery& query,
                                                         std::chrono::milliseconds timeout);
 
-// Has the servers in reach change a route's labels; the first reply has the revisions that changed.
-// Errors as above.
+// Asks the servers in reach to change a route's labels. The first reply has the revisions that
+// changed. Errors are as above.
 [[nodiscard]] Result<exchange::CatalogReply> AskToEdit(exchange::RouteExchange& exchange,
                                                        const AgentId& client,
                                                        const route::RouteEdit& edit,
                                                        std::chrono::milliseconds timeout);
 
-// Page after page, until there are `limit` routes or no more. Each page may take `timeout`.
+// Asks for page after page, until there are `limit` routes or no more. Each page may take
+// `timeout`.
 [[nodiscard]] Result<exchange::CatalogReply> AskForRoutes(exchange::RouteExchange& exchange,
                                                           const AgentId& client,
                                                           route::RouteQuery query,
                                                           std::size_t limit,
                                                           std::chrono::milliseconds timeout);
 
-// For people: one line a route, with an id by which every command finds it ("a3f9c21@2": revision
-// 2); `now_unix_ms` for their ages.
+// Returns a table for people, with one line for each route and an id by which every command finds
+// it ("a3f9c21@2" is revision 2). `now_unix_ms` is for their ages.
 [[nodiscard]] std::string RoutesTable(const exchange::CatalogReply& reply,
                                       std::int64_t now_unix_ms);
-// For programs: an object; with who holds it and what is lost of it, as the reply tells; and an
-// array of these, with what was found out of some besides.
+// These return, for programs, an object; an object with its holders and what is lost of it, as the
+// reply tells; and an array of these, with what was found out about some of them.
 [[nodiscard]] nlohmann::ordered_json RouteJson(const route::RouteInfo& info);
 [[nodiscard]] nlohmann::ordered_json RouteJson(const route::RouteInfo& info,
                                                const exchange::CatalogReply& reply);

@@ -8,8 +8,9 @@
 
 namespace trailcast::fleet {
 
-// Asks where on which route a picture of a robot's camera, or of one like it, was taken.
-// kInvalidArgument where it shows too little to be recognised; `name` is the picture's.
+// Returns a query for where on which route a picture of a robot's camera, or of a similar one, was
+// taken. Fails with kInvalidArgument if the picture shows too little to be recognised. `name` is
+// the picture's.
 [[nodiscard]] Result<route::RouteQuery> QueryByPicture(const image::GrayImage& picture,
                                                        const std::string& name);
 

@@ -15,29 +15,31 @@
 
 namespace trailcast::fleet {
 
-// Which of the routes that a name or an id's beginning means to export: the revision that followers
-// would take, or the one that is asked for. `reply` answers the catalog's question for it; `holder`
-// is who answered, for messages. kNotFound, with what there is, when there is none; kConflict for
-// several routes; kInvalidArgument for one that is still being taught.
+// Returns which of the routes that a name or an id's beginning means is to be exported: the
+// revision that followers would take, or the one that is asked for. `reply` answers the catalog's
+// question for it, and `holder` is the server that answered, for messages. Fails with kNotFound,
+// and what there is, when there is none; with kConflict for several routes; and with
+// kInvalidArgument for one that is still being taught.
 [[nodiscard]] Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
                                                        const std::string& name_or_id,
                                                        const exchange::RevisionChoice& which,
                                                        const std::string& holder);
 
-// What an operator's programs use who fetch routes.
+// Returns the topics of an operator's programs that fetch routes.
 [[nodiscard]] exchange::TopicUse ExporterTopics();
 
-// Give all the route's segments to `writer`, which was made for it. Return the file's size.
+// These give all the route's segments to `writer`, which was made for it, and return the file's
+// size.
 [[nodiscard]] Result<std::uint64_t> ExportFromStore(store::RouteStore& store,
                                                     const route::RouteInfo& info,
                                                     archive::RouteFileWriter writer);
-// All the route's segments, in order, each to `take`, whose errors end it. `peer` has
-// ExporterTopics. kUnavailable when nothing new has come for the watch's timeout, or it was
-// stopped; kCorrupt when what servers hold is not what was announced.
+// Passes all the route's segments, in order, to `take`, whose errors end it. `peer` has
+// ExporterTopics. Fails with kUnavailable when nothing new has come for the watch's timeout, or the
+// watch stopped it, and with kCorrupt when servers hold other bytes than were announced.
 [[nodiscard]] Result<void> FetchInOrder(
     OperatorPeer& peer, const route::RouteInfo& info, const TransferWatch& watch,
     const std::function<Result<void>(const route::SegmentPiece&)>& take);
-// The same into a file.
+// Fetches the same into a file.
 [[nodiscard]] Result<std::uint64_t> ExportFromServer(OperatorPeer& peer,
                                                      const route::RouteInfo& info,
                                                      archive::RouteFileWriter writer,

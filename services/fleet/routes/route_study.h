@@ -14,25 +14,26 @@
 
 namespace trailcast::fleet {
 
-// What a route's segments say of it besides its catalog entry.
+// This is what a route's segments tell of it that its catalog entry does not.
 struct RouteStudy {
   std::vector<view::WeakPlace> weak_places;
   std::vector<route::TerrainStretch> terrain{};
 };
 using RouteStudies = std::map<route::RouteKey, RouteStudy>;
 
-// Fetches a complete route to look at it. Errors as FetchInOrder's; kCorrupt for a segment that
+// Fetches a complete route to study it. Errors are FetchInOrder's, and kCorrupt for a segment that
 // cannot be read.
 [[nodiscard]] Result<RouteStudy> StudyRoute(OperatorPeer& peer, const route::RouteInfo& info,
                                             const TransferWatch& watch);
 
-// For people: where followers may be lost and why, a line a place; or that there is no such place.
+// Returns, for people, where followers may be lost and why, one line for each place, or that there
+// is no such place.
 [[nodiscard]] std::string WeakPlacesText(const route::RouteInfo& info, const RouteStudy& study);
-// For programs: an array.
+// Returns an array for programs.
 [[nodiscard]] nlohmann::ordered_json WeakPlacesJson(const route::RouteInfo& info,
                                                     const RouteStudy& study);
 
-// The same of the ground: a line a stretch; or that nothing is known of it.
+// These return the same for the ground: one line for each section, or that nothing is known of it.
 [[nodiscard]] std::string GroundText(const route::RouteInfo& info, const RouteStudy& study);
 [[nodiscard]] nlohmann::ordered_json GroundJson(const route::RouteInfo& info,
                                                 const RouteStudy& study);

@@ -8,11 +8,11 @@
 
 namespace trailcast::fleet {
 
-// "40.1 m"; without odometry nobody knows.
+// Returns "40.1 m". The length is unknown without odometry.
 [[nodiscard]] std::string LengthText(const route::RouteInfo& info);
-// What is in a route file, a few lines for people.
+// Returns what is in a route file, in a few lines for people.
 [[nodiscard]] std::string FileText(const std::string& path, const archive::RouteFile& file);
-// The same, or why it was refused, as an object for programs.
+// Returns the same, or why it was refused, as an object for programs.
 [[nodiscard]] nlohmann::ordered_json FileJson(const std::string& path,
                                               const Result<archive::RouteFile>& file);
 

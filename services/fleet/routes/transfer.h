@@ -10,18 +10,19 @@
 
 namespace trailcast::fleet {
 
-// How a route's way to or from a server is watched.
+// This is how the transfer of a route to or from a server is watched.
 struct TransferWatch {
   std::chrono::milliseconds timeout{10'000};  // without anything new
   std::function<bool()> stop = [] { return false; };
   std::function<void(std::uint64_t done_bytes)> progress = [](std::uint64_t) {};
 };
 
-// "fetching 'hall': 40 % of 1.2 MB, about 12 s left"; `elapsed` is how long `done` bytes took.
+// Returns "fetching 'hall': 40 % of 1.2 MB, about 12 s left". `elapsed` is how long `done` bytes
+// took.
 [[nodiscard]] std::string ProgressText(const std::string& doing, std::uint64_t done,
                                        std::uint64_t total, std::chrono::nanoseconds elapsed);
 
-// Shows a line of progress of what takes longer than a glance.
+// This shows a line of progress for a transfer that takes more than a moment.
 class TransferProgress {
  public:
   using Clock = std::chrono::steady_clock;

@@ -7,10 +7,10 @@
 
 namespace trailcast::fleet {
 
-// What a server found of a view, for people: a line a place, likest first, or that there is none;
-// and, where not all that is stored was searched, how much was.
+// Returns what a server found of a view, for people: one line for each place, the most similar
+// first, or that there is none; and, if not all that is stored was searched, how much was.
 [[nodiscard]] std::string WhereText(const exchange::CatalogReply& reply);
-// For programs: one object.
+// Returns one object for programs.
 [[nodiscard]] nlohmann::ordered_json WhereJson(const exchange::CatalogReply& reply);
 
 }  // namespace trailcast::fleet

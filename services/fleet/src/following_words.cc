@@ -10,14 +10,14 @@ namespace {
 using exchange::CarriedBy;
 using exchange::OdometryTrust;
 
-// Below this, odometry contradicts what is seen.
+// Odometry with less than this contradicts what is seen.
 constexpr int kBelieved_percent = 20;
-// From here on nothing else tells better how the robot moves.
+// With this or more, nothing else tells better how the robot moves.
 constexpr int kTrusted_percent = 50;
-// So much is what odometry of its kind is off by.
+// Odometry of its kind is usually off by this much.
 constexpr double kUsualScale = 1.05;
 
-// What is wrong with odometry that is not believed is that it disagrees with the pictures.
+// Odometry is not believed if it disagrees with the pictures.
 std::string NotBelieved(CarriedBy carried_by) {
   switch (carried_by) {
     case CarriedBy::kFeatures:

@@ -22,7 +22,7 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kWait{50};
 
-// Page after page, until there are `limit` or no more.
+// Asks for page after page, until there are `limit` records or no more.
 template <typename Record>
 Result<std::vector<Record>> AskForAll(exchange::RouteExchange& exchange,
                                       exchange::MissionRequest question,

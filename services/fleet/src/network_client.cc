@@ -34,7 +34,7 @@ Result<Lines> AskForLines(exchange::RouteExchange& exchange, exchange::NetworkRe
         Ask<exchange::NetworkReply>(exchange, question.client, question.request, question, timeout);
     if (!reply) return tl::unexpected(reply.error());
     std::move(reply->lines.begin(), reply->lines.end(), std::back_inserter(all));
-    // A server's pages go on, or end.
+    // A reply that does not go beyond this page is the last one.
     if (reply->next <= question.first) return all;
     question.first = reply->next;
   }
@@ -57,7 +57,7 @@ Json JointJson(const network::Joint& joint) {
           {"lie", std::move(lie)}};
 }
 
-// Adds to an object what is said of it besides.
+// Adds a member to an object.
 Json With(Json object, const char* name, Json value) {
   object[name] = std::move(value);
   return object;
@@ -67,7 +67,7 @@ Json PartJson(const std::string& route, double from_m, double to_m) {
   return {{"route", route}, {"from_m", Rounded(from_m, 100.0)}, {"to_m", Rounded(to_m, 100.0)}};
 }
 
-// null: up to the route's end.
+// A null end is the route's end.
 Json ConditionJson(const network::Condition& condition) {
   Json json = PartJson(condition.route, condition.from_m, condition.to_m);
   if (condition.to_m >= network::kToTheEnd_m) json["to_m"] = nullptr;
@@ -92,7 +92,8 @@ Json LostJson(const network::LostStretch& lost) {
   return json;
 }
 
-// One of these; an operator may have said the beginning of an id.
+// Returns whether a change is about one of these routes. An operator may have given the beginning
+// of an id.
 bool IsAbout(const Lines& routes, std::span<const std::string> of) {
   return std::any_of(routes.begin(), routes.end(), [&](const std::string& route) {
     return std::any_of(of.begin(), of.end(), [&](const std::string& asked) {
@@ -101,7 +102,7 @@ bool IsAbout(const Lines& routes, std::span<const std::string> of) {
   });
 }
 
-// The stretches; of orders that are no way, none.
+// Returns the sections of a path, or none for orders that are no path.
 std::vector<network::Stretch> StretchesOf(const Lines& way) {
   const auto tasks = mission::ParseOrders(fmt::format("goto there {}", fmt::join(way, " ")))
                          .value_or(std::vector<mission::Task>{});

@@ -22,8 +22,8 @@ using std::chrono::steady_clock;
 constexpr milliseconds kNowAgain{100};
 constexpr milliseconds kNowWait{20};
 
-// Whoever has just joined does not hear robots that are silent, but servers know which are on their
-// way.
+// A program that has just joined does not hear robots that are silent, but servers know which are
+// on missions.
 exchange::MissionRequest WhoIsOnAMission(const AgentId& self) {
   exchange::MissionRequest request{.client = self};
   request.query.page_size = exchange::kMaxMissionsPerReply;

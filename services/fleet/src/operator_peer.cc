@@ -10,7 +10,7 @@ namespace trailcast::fleet {
 Result<OperatorPeer> JoinAsOperator(const program::CommonOptions& common,
                                     const exchange::TopicUse& use, int number) {
   program::CommonOptions network = common;
-  // Keys are of the name without what is behind it.
+  // Keys are for the name without the number behind it.
   network.name = ProcessName(common.name, getpid() * 100L + number);
   auto exchange = program::OpenExchange(network, use);
   if (!exchange) return tl::unexpected(exchange.error());

@@ -31,7 +31,7 @@ std::string SpanText(milliseconds span) {
 
 bool IsServer(const Reach::Member& member) { return member.role == AgentRole::kServer; }
 
-// Who hears whom, and where from.
+// This finds which member hears which other, and from where.
 class Hearings {
  public:
   explicit Hearings(const Reach& reach) {
@@ -49,7 +49,7 @@ class Hearings {
     const auto found = heard_by_.find(heard);
     return found == heard_by_.end() ? kNobody : found->second;
   }
-  // "10.0.0.7:41830", by anybody.
+  // Returns "10.0.0.7:41830", as any member hears it.
   [[nodiscard]] std::string AddressOf(const AgentId& heard) const {
     for (const AgentId& by : Of(heard)) {
       const HeardAgent* found = Find(by, heard);
@@ -144,7 +144,7 @@ void ReachSurvey::Hear(const exchange::Message& message, Time now) {
 Reach ReachSurvey::Result(Time now) const {
   std::map<AgentId, Reach::Member> members;
   for (const AgentId& name : expected_) members[name];
-  std::map<std::pair<AgentId, AgentId>, HeardAgent> hearings;  // by who is heard, and who hears
+  std::map<std::pair<AgentId, AgentId>, HeardAgent> hearings;  // by heard, then by hearing member
   const auto note = [&](const AgentId& by, const HeardAgent& heard) {
     if (heard.role == AgentRole::kOperator) return;
     members[heard.agent].role = heard.role;
@@ -165,7 +165,7 @@ Reach ReachSurvey::Result(Time now) const {
   }
   for (auto& [pair, heard] : hearings) {
     const auto& [agent, by] = pair;
-    // There and back is as far as back and there.
+    // A round trip is as long in the other direction.
     const auto back = hearings.find({by, agent});
     if (!heard.round_trip_ms && back != hearings.end()) {
       heard.round_trip_ms = back->second.round_trip_ms;
@@ -190,7 +190,7 @@ std::vector<Reach::Trouble> TroublesOf(const Reach& reach) {
   }
   for (const Reach::Member* by : answered) {
     for (const Reach::Member& heard : reach.members) {
-      // Whom nobody hears is told of once.
+      // A member that nobody hears is reported once.
       const bool known = heard.star || !hearings.Of(heard.name).empty();
       if (!known || !ShallHear(*by, heard) || hearings.Find(by->name, heard.name)) continue;
       troubles.push_back(OneWay(*by, heard, hearings));

@@ -8,9 +8,10 @@ using exchange::AgentRole;
 
 RobotState RobotStateOf(const exchange::AgentStatus& status, bool offline,
                         const mission::Report* last) {
-  // Who has said that it ends is not waited for.
+  // A robot that has announced its end is not offline.
   if (offline && status.mode != AgentMode::kStopped) return RobotState::kOffline;
-  const bool drives = status.mode == AgentMode::kReplaying;  // yet, for a moment
+  const bool drives =
+      status.mode == AgentMode::kReplaying;  // a held robot may still drive for a moment
   const bool held = !drives && status.mode != AgentMode::kStopped;
   if (held && status.hold == AgentHold::kStopped) return RobotState::kStopped;
   if (held && status.hold == AgentHold::kPaused) return RobotState::kPaused;

@@ -127,13 +127,14 @@ void RobotsThere::Hear(const exchange::Message& message) {
   }
 }
 
-// The newest comes first. What a robot has refused, or has not heard of, it does not do.
+// The newest mission comes first. A robot does not do a mission that it has refused or not heard
+// of.
 void RobotsThere::Note(const exchange::MissionReply& reply) {
   for (const mission::Record& record : reply.missions) {
     if (record.last.change == 0 || record.last.state == mission::State::kRefused) continue;
     const bool has_ended = mission::HasEnded(record.last.state);
     const bool known = robots_.contains(record.mission.agent);
-    if (!known && has_ended) continue;  // that was a robot of the past
+    if (!known && has_ended) continue;  // such a robot may be gone
     Robot* robot = Known(record.mission.agent);
     if (robot == nullptr) continue;
     if (!robot->mission || record.sent_unix_ms > robot->mission->sent_unix_ms) {

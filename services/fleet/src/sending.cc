@@ -12,9 +12,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// A robot that is there has answered by then.
+// A robot that is in reach has answered by then.
 constexpr milliseconds kRobotAnswers{3000};
-// What it has accepted it may yet refuse, as where no route is called so: that takes so long.
+// A robot may still refuse a mission that it has accepted, for example if there is no such route.
+// That takes this long.
 constexpr milliseconds kRobotDecides{3000};
 constexpr milliseconds kAgain{200};
 constexpr milliseconds kAgainWatched{2000};

@@ -16,7 +16,7 @@ namespace {
 using exchange::NowWhom;
 using std::chrono::milliseconds;
 
-// Whoever joins has heard of all who are there by then, usually.
+// A program that joins has usually heard of all robots by then.
 constexpr milliseconds kAllAreHeard{1500};
 
 // A robot does not know that it has a queue, so a server's word on that may come after its own.
@@ -56,7 +56,8 @@ void Telling::Hear(const exchange::Message& message) {
     const std::string& robot = status->agent.value();
     if (status->role == exchange::AgentRole::kFollower && names_.size() < kMostNames) Note(robot);
     const auto known = words_.find(robot);
-    // Who has ended stands. Who is only heard no more, as when it was killed, may not.
+    // A robot that has announced its end stands. One that is only no longer heard, because it was
+    // killed, may not.
     if (ended && known != words_.end() && !known->second.answered && !IsNamed(robot)) {
       words_.erase(known);
     } else if (status->role == exchange::AgentRole::kFollower && !ended && IsMeant(*status)) {
@@ -73,7 +74,7 @@ void Telling::Expect(const std::string& robot, const std::string& last_known) {
 
 void Telling::Expect(const mission::Record& record) {
   const std::string& robot = record.mission.agent.value();
-  if (words_.contains(robot)) return;  // it is heard, which says more
+  if (words_.contains(robot)) return;  // it is heard, which tells more
   const auto routes = mission::RoutesIn(record.mission.orders);
   const bool is_meant = std::any_of(targets_.begin(), targets_.end(), [&](const NowTarget& each) {
     return each.whom == NowWhom::kAll ||
@@ -117,7 +118,7 @@ std::vector<RobotsWord> Telling::Words() const {
   return words;
 }
 
-// Another process may be called the same.
+// Another process may have the same name, so the number counts, too.
 bool Telling::Answers(const exchange::NowAnswer& answer) const {
   return std::any_of(commands_.begin(), commands_.end(), [&](const auto& command) {
     return answer.client == command.client && answer.number == command.number;

@@ -23,7 +23,7 @@ using testing::IsEmpty;
 using testing::StartsWith;
 
 // The comments of these rooms are still to be read.
-const std::set<std::string> kRoomsNotReadYet{"services/console", "services/fleet"};
+const std::set<std::string> kRoomsNotReadYet{"services/console"};
 
 // Where the comment of a line begins, behind its slashes: at its beginning, or two blanks after the
 // code. A string may hold slashes, too.

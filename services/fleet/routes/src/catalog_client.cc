@@ -118,7 +118,7 @@ std::string RoutesTable(const exchange::CatalogReply& reply, std::int64_t now_un
       name_width, "id", id_width, "state", state_width, "segments", "metres", "kB", "B/m", "scout",
       scout_width, "camera", camera_width, "age", "held by; tags, description");
   for (const route::RouteInfo& info : routes) {
-    const bool taught_metres = info.length_m > 0.0;  // not without odometry
+    const bool taught_metres = info.length_m > 0.0;  // false without odometry
     text += fmt::format(
         "{:<{}}  {:<{}}  {:<{}}  {:>8}  {:>8}  {:>8.1f}  {:>6}  {:<{}}  {:<{}}  {:>6}  {}\n",
         info.name, name_width, ids.Of(info), id_width, route::StateText(info), state_width,

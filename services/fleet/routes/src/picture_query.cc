@@ -5,7 +5,7 @@
 namespace trailcast::fleet {
 
 Result<route::RouteQuery> QueryByPicture(const image::GrayImage& picture, const std::string& name) {
-  constexpr std::size_t kTooFew = 8;  // as teaching has it
+  constexpr std::size_t kTooFew = 8;  // as in teaching
   route::RouteQuery query;
   query.view = vision::DescribeForQuery(picture);
   if (query.view.size() >= kTooFew) return query;

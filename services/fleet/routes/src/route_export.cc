@@ -23,8 +23,8 @@ constexpr std::chrono::milliseconds kExportWait{20};
 
 using Take = std::function<Result<void>(const route::SegmentPiece&)>;
 
-// Fetched pieces come in any order and are passed on in order: those that came early wait here. The
-// fetcher asks for the lowest first, so they are few.
+// Fetched pieces come in any order and are passed on in order. Pieces that came early wait here.
+// The fetcher asks for the lowest first, so they are few.
 class InOrder {
  public:
   explicit InOrder(const Take& take) : take_(take) {}
@@ -122,7 +122,7 @@ Result<void> FetchInOrder(OperatorPeer& peer, const route::RouteInfo& info,
       fetcher.Handle(message, Clock::now());
     }
     const auto now = Clock::now();
-    // What cannot be sent is asked for again.
+    // A request that cannot be sent is repeated.
     std::ignore = exchange::PublishAll(*peer.exchange, fetcher.Tick(now));
     for (route::SegmentPiece& piece : fetcher.TakeArrived()) {
       if (auto added = pieces.Add(std::move(piece)); !added) return added;

@@ -63,8 +63,8 @@ Result<void> AppendAll(const archive::RouteFile& file, store::RouteStore& store)
   return {};
 }
 
-// A route on its way from a file to a server, as a scout delivers it. A server that has a complete
-// route announces it when asked who has it, and then has these bytes, as its receipts say.
+// This delivers a route from a file to a server, as a scout does. A server that has a complete
+// route announces it when it is asked, and its acknowledgements say that it has these bytes.
 class Delivery {
  public:
   Delivery(const archive::RouteFile& file, OperatorPeer& peer, AgentId server)
@@ -74,7 +74,7 @@ class Delivery {
         sender_(peer.self, info_, [&file](SegmentIndex index) { return file.ReadSegment(index); },
                 exchange::SegmentDigests(file.digests()), {}) {}
 
-  // One turn of the loop.
+  // This is one turn of the loop.
   Result<void> Step() {
     for (const exchange::Message& message : peer_.exchange->Take(kImportWait)) {
       Handle(message);
@@ -96,7 +96,7 @@ class Delivery {
     return {};
   }
 
-  // The server that has all of it, once there is one.
+  // Returns the server that has all of it, once there is one.
   [[nodiscard]] const std::optional<AgentId>& holder() const {
     static const std::optional<AgentId> kNobody;
     return asked_for_ && !sender_.AllReceipted() ? kNobody : holder_;
@@ -119,10 +119,11 @@ class Delivery {
   }
   void Handle(const exchange::RouteAnnouncement& announced) {
     if (announced.info.key != info_.key || !IsComplete(announced.info)) return;
-    // Who announces a tombstone says the same in a receipt, which comes before or after.
+    // A server that announces a tombstone says the same in an acknowledgement, which comes before
+    // or after.
     if (announced.info.standing == route::Standing::kDeleted) return;
     if (!IsSameTeaching(announced.info, info_)) conflicting_ = announced.holder;
-    // The scout may announce it too, and confirms nothing.
+    // The scout may announce the route, too, but acknowledges nothing.
     if (servers_.contains(announced.holder)) holder_ = announced.holder;
   }
 
@@ -133,7 +134,7 @@ class Delivery {
   Clock::time_point inquire_at_{};
   std::optional<AgentId> holder_;
   std::optional<AgentId> conflicting_;
-  bool asked_for_ = false;  // somebody lacked some of it
+  bool asked_for_ = false;  // a server lacked some of it
 };
 
 tl::unexpected<Error> FellSilent(const route::RouteInfo& info, const Delivery& delivery,
@@ -169,10 +170,10 @@ Result<Imported> ImportIntoStore(const archive::RouteFile& file, store::RouteSto
   if (!held) return tl::unexpected(held.error());
   const bool complete = *known && IsComplete(**known);
   if (complete && !IsSameTeaching(**known, info)) return Conflict(info, name);
-  // Held ones too: the store mends what has become damaged.
+  // Segments that it holds are appended, too, because the store repairs damaged ones.
   if (auto appended = AppendAll(file, store); !appended) return tl::unexpected(appended.error());
   if (complete) return Imported{held->size() >= info.segment_count, name};
-  // Last, so that no route is there without its segments.
+  // The route is put last, so that no route is there without its segments.
   std::vector<route::RouteInfo> numbered{info};
   if (auto given = exchange::GiveNumbers(store, numbered); !given)
     return tl::unexpected(given.error());

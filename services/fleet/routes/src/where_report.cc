@@ -16,7 +16,7 @@ struct Found {
   const route::RouteInfo& route;
 };
 
-// As far as the reply is what it should be: a route for each place.
+// Returns the places with their routes, as far as the reply has a route for each place.
 std::vector<Found> PlacesIn(const exchange::CatalogReply& reply) {
   std::vector<Found> found;
   const std::size_t count = std::min(reply.places.size(), reply.page.routes.size());
