@@ -10,33 +10,35 @@
 
 namespace trailcast::console {
 
-// How the console is reached, and by whom.
+// This is how the console is reached, and by whom.
 struct Entry {
-  std::shared_ptr<users::Guard> guard{};  // null: whoever reaches it may all
+  std::shared_ptr<users::Guard> guard{};  // if null, everyone who reaches it may do everything
   std::optional<http::Tls> tls{};
-  bool behind_proxy = false;  // one that speaks TLS, and says where its clients are
-  std::string only_looks{};   // why nobody gives orders here, whoever they are; empty: some may
+  bool behind_proxy = false;  // the proxy speaks TLS, and says where its clients are
+  std::string only_looks{};   // why no user may give orders; empty if some may
 };
 
-// Who asks, and whether they may: a session by a cookie, for people, and a token in a header, for
-// programs. Its methods may be called from any thread.
+// This finds who asks, and whether they may: by a cookie's session for people, and by a token in a
+// header for programs. Its methods may be called from any thread.
 class Access {
  public:
   explicit Access(Entry entry) : entry_(std::move(entry)) {}
 
-  // On which the console listens: browsers keep cookies of a host's ports together.
+  // Sets the port that the console listens on, because browsers share cookies between a host's
+  // ports.
   void At(int port);
-  // POST /api/log-in and /api/log-out, GET /api/me.
+  // Serves POST /api/log-in and /api/log-out, and GET /api/me.
   void Serve(http::Server& server);
 
-  // Why it is refused: 401 for who is not logged in, 403 for what the role may not, or another page
-  // may have sent.
+  // Returns why a request is refused: 401 if the user is not logged in, and 403 if the role is not
+  // enough, or another page may have sent the request.
   [[nodiscard]] std::optional<http::Refusal> Judge(const httplib::Request& request) const;
-  // Of one that was let in.
+  // Returns the user of a request that was accepted.
   [[nodiscard]] users::Who WhoIs(const httplib::Request& request) const;
-  // Whether who sent the request still is let in, for answers that take long.
+  // Returns a function that tells whether the request's user is still accepted, for answers that
+  // take long.
   [[nodiscard]] std::function<bool()> StillIn(const httplib::Request& request) const;
-  // Strangers reach it, each from their own address.
+  // Returns whether strangers reach the console, each from an address of their own.
   [[nodiscard]] bool is_open() const { return entry_.guard != nullptr && !entry_.behind_proxy; }
   [[nodiscard]] bool encrypted() const { return entry_.tls.has_value() || entry_.behind_proxy; }
 

@@ -13,22 +13,22 @@
 
 namespace trailcast::console {
 
-// A file in which alerts outlive the console. A thread of its own writes the latest of them: who
-// hears robots waits for no disk.
+// This is a file in which alerts outlive the console. It writes the latest alerts in a thread of
+// its own, so that the thread that hears robots waits for no disk.
 class AlertFile {
  public:
   static constexpr std::size_t kMostBytes = 8U << 20U;
 
-  // Nothing is in it yet where there is no file; kCorrupt, naming it, where there is something
-  // else; kUnavailable where it cannot be written.
+  // Opens a file, which has no alerts if it does not exist. Fails with kCorrupt, which names the
+  // file, if it has something else, and with kUnavailable if it cannot be written.
   [[nodiscard]] static Result<std::unique_ptr<AlertFile>> Open(const std::filesystem::path& file);
-  // What was last handed over is on the disk when it returns, if the disk takes it.
+  // Returns when the alerts that were last handed over are on the disk, if the disk takes them.
   ~AlertFile();
   AlertFile(const AlertFile&) = delete;
   AlertFile& operator=(const AlertFile&) = delete;
 
-  [[nodiscard]] const Alerts& alerts() const { return alerts_; }  // as they were in it
-  // Hands over what is to be in it, and waits for nothing.
+  [[nodiscard]] const Alerts& alerts() const { return alerts_; }  // as they were in the file
+  // Hands over the file's new content, and waits for nothing.
   void Keep(std::string text);
 
  private:

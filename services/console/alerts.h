@@ -12,14 +12,14 @@
 
 namespace trailcast::console {
 
-// What somebody has to see to now, in words for people.
+// This is something that a person has to see to now, in words for people.
 struct Cause {
-  std::string kind{};  // of one subject each kind is there once
+  std::string kind{};  // each subject has each kind at most once
   std::string subject{};
-  bool of_server = false;  // the subject is one, not a robot
-  bool alarm = false;      // otherwise a warning
+  bool of_server = false;  // the subject is a server, not a robot
+  bool alarm = false;      // otherwise it is a warning
   std::string reason{};
-  std::string place{};   // empty: not known
+  std::string place{};   // empty if not known
   std::string action{};  // what to do
 
   bool operator==(const Cause&) const = default;
@@ -28,42 +28,42 @@ struct Cause {
 struct Alert {
   std::string id{};
   Cause cause{};
-  bool known = true;  // false: nothing was heard of the subject since the console started
+  bool known = true;  // false if nothing was heard of the subject since the console started
   std::int64_t since_unix_ms = 0;
-  std::string acknowledged_by{};  // empty: nobody has
+  std::string acknowledged_by{};  // empty if nobody has
   std::int64_t acknowledged_unix_ms = 0;
-  std::int64_t ended_unix_ms = 0;  // 0: it is open
+  std::int64_t ended_unix_ms = 0;  // 0 if it is open
 
   [[nodiscard]] bool open() const { return ended_unix_ms == 0; }
 };
 
-// Keeps what somebody has to see to, since when, and who has acknowledged it. An alert ends by
-// itself once its cause has. No I/O, no clock.
+// This keeps what people have to see to, since when, and who has acknowledged it. An alert ends by
+// itself once its cause has ended. It has no I/O and no clock.
 class Alerts {
  public:
-  // Of those that have ended the last stay so many; of those that are open at most so many begin.
+  // So many alerts that have ended are kept, the last ones. No more begin when so many are open.
   static constexpr std::size_t kMostEnded = 500;
   static constexpr std::size_t kMostOpen = 4096;
 
-  // Takes what there is to see to now. Alerts about who is not in `subjects` stay as they are:
-  // nothing is known of them yet. So do those of before the console started about who is `unsure`:
-  // not all is known that they may be about.
+  // Takes what there is to see to now. Alerts about robots and servers that are not in `subjects`
+  // stay unchanged, as nothing is known of them yet. So do alerts from before the console started
+  // about those that are `unsure`, of which not all is known that could cause alerts.
   void Note(const std::vector<Cause>& causes, const std::set<std::string>& subjects,
             const std::set<std::string>& unsure, std::int64_t unix_ms);
-  // All that are about a subject end: it is listed no more. False: none was.
+  // Ends all alerts about a subject, which is no longer listed. Returns false if there was none.
   bool End(const std::string& subject, std::int64_t unix_ms);
-  // kNotFound where no open alert has this id. One that is acknowledged stays so.
+  // Fails with kNotFound if no open alert has this id. An alert that is acknowledged stays so.
   [[nodiscard]] Result<void> Acknowledge(const std::string& id, const std::string& by,
                                          std::int64_t unix_ms);
 
   [[nodiscard]] bool IsOpen(const std::string& subject, const std::string& kind) const;
-  // Counts up whenever something of it changes that is kept.
+  // Returns a number that rises whenever something changes that is kept.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
-  // Show openapi.yaml's Alert each: those that are open, or all, the newest first.
+  // These show openapi.yaml's Alert for each: those that are open, or all, the newest first.
   [[nodiscard]] nlohmann::ordered_json OpenShown() const;
   [[nodiscard]] nlohmann::ordered_json AllShown() const;
 
-  // What is kept in a file, and read again. kCorrupt.
+  // These write and read what is kept in a file. Reading fails with kCorrupt.
   [[nodiscard]] std::string Text() const;
   [[nodiscard]] static Result<Alerts> Read(const std::string& text);
 

@@ -20,35 +20,35 @@
 
 namespace trailcast::console {
 
-// Shapes of routes, whose segments are fetched from the fleet when somebody asks: one route at a
-// time, by a member of its own that joins for it and leaves when nobody has asked for a minute. So
-// nothing of it holds up what robots are told. May be used from any thread.
+// This makes shapes of routes, whose segments it fetches from the fleet on demand, one route at a
+// time. It does so by a network member of its own, which joins for it and leaves when nobody has
+// asked for a minute, so that it delays no command to robots. It may be used from any thread.
 class Atlas {
  public:
   using Join = std::function<Result<fleet::OperatorPeer>()>;
   static constexpr std::size_t kMostKept = 64;
   static constexpr std::size_t kMostAsked = 32;   // routes that wait to be fetched
-  static constexpr std::size_t kMostWaiting = 4;  // who wait for them
+  static constexpr std::size_t kMostWaiting = 4;  // callers that wait for them
   static constexpr std::chrono::seconds kLeaveAfter{60};
-  // What failed is tried again, and which revision is active asked again, no sooner.
+  // A failed fetch is repeated, and the active revision is asked for again, no sooner than this.
   static constexpr std::chrono::seconds kAskAgain{5};
 
-  // `join`: with fleet::ExporterTopics. A server is to reply within the time.
+  // `join` joins with fleet::ExporterTopics. A server must reply within the time.
   explicit Atlas(Join join, std::chrono::milliseconds reply_within = std::chrono::seconds(5));
   ~Atlas();
   Atlas(const Atlas&) = delete;
   Atlas& operator=(const Atlas&) = delete;
 
   struct Found {
-    std::shared_ptr<const std::string> shape{};  // openapi.yaml's RouteShape; null: not there yet
-    double fetched = 0.0;                        // 0 to 1 of it
+    std::shared_ptr<const std::string> shape{};  // openapi.yaml's RouteShape; null if not there yet
+    double fetched = 0.0;                        // share of it, 0 to 1
   };
-  // Of this teaching of a route, or of the one that robots take. Waits for it, up to `most`.
-  // kNotFound; kConflict while it is being taught; kUnavailable when it cannot be fetched, or too
-  // many are asked for.
+  // Returns the shape of this teaching of a route, or of the one that robots follow, and waits for
+  // it for `most`. Fails with kNotFound; with kConflict while it is being taught; and with
+  // kUnavailable when it cannot be fetched, or too many are asked for.
   [[nodiscard]] Result<Found> Find(const RouteId& route, std::optional<TeachingId> teaching,
                                    std::chrono::milliseconds most);
-  // Nothing is fetched any more, and whoever waits is let go.
+  // Ends fetching, and releases all callers that wait.
   void Close();
 
  private:
@@ -65,10 +65,10 @@ class Atlas {
   void Run();
   [[nodiscard]] std::optional<Wanted> Next(std::chrono::milliseconds most);
   [[nodiscard]] Result<route::RouteInfo> Ask(fleet::OperatorPeer& peer, const Wanted& wanted);
-  // `peer`: joins if there is none.
+  // Joins if there is no `peer`.
   [[nodiscard]] Shape Draw(std::optional<fleet::OperatorPeer>& peer, const Wanted& wanted);
   [[nodiscard]] Shape Survey(fleet::OperatorPeer& peer, const Wanted& wanted);
-  // Null: it is not there, or no longer true.
+  // Returns null if the sheet is not there, or no longer true.
   [[nodiscard]] const Sheet* Held(const Wanted& wanted) const;
   [[nodiscard]] bool closed();
 
@@ -78,7 +78,7 @@ class Atlas {
   std::mutex mutex_;  // guards what follows
   bool closed_ = false;
   std::size_t waiting_ = 0;
-  std::deque<Wanted> asked_;  // the first is under way
+  std::deque<Wanted> asked_;  // the first is being fetched
   NewestMap<Wanted, Sheet> sheets_{kMostKept};
   std::condition_variable changed_;
 

@@ -12,7 +12,7 @@
 
 namespace trailcast::console {
 
-// What came of what robots were told from here. From any thread.
+// This counts the outcomes of commands to robots from this console. It may be used from any thread.
 class CommandCounts {
  public:
   void Count(exchange::NowOrder order, const std::vector<fleet::RobotsWord>& words);

@@ -27,32 +27,32 @@ namespace trailcast::console {
 
 class Errand;
 
-// What the console reads and writes.
+// Returns the topics that the console reads and writes.
 [[nodiscard]] exchange::TopicUse ConsoleTopics();
-// The same of one with the keys of an observer, that tells nobody what to do.
+// Returns the topics of a console with an observer's keys, which commands no robot.
 [[nodiscard]] exchange::TopicUse LookingTopics();
 
-// The console's place in the fleet: a thread that owns the exchange, keeps the state, and does what
-// others ask of it. Its methods may be called from any thread; they wait for what they return.
+// This is the console's member of the fleet: a thread that owns the exchange, keeps the state, and
+// carries out the requests of other threads. Its methods may be called from any thread, and wait
+// for what they return.
 class Desk {
  public:
   struct Options {
-    std::chrono::milliseconds answer_within{3000};  // robots
-    std::chrono::milliseconds reply_within{5000};  // robots and servers, to a mission or a question
-    std::chrono::milliseconds ask_every{30'000};   // for missions, while somebody looks: news of
-                                                   // them are told unasked
-    std::chrono::milliseconds looks_on{3000};      // who looked so lately
-    Alerts alerts{};                               // of before
-    // Given what is to be kept of them, on the desk's thread: it does not wait.
+    std::chrono::milliseconds answer_within{3000};  // answers of robots to a command
+    std::chrono::milliseconds reply_within{5000};   // replies to a mission or a question
+    std::chrono::milliseconds ask_every{30'000};    // missions, while a page is open
+    std::chrono::milliseconds looks_on{3000};       // a page counts as open for this long
+    Alerts alerts{};                                // alerts from before
+    // This gets what is to be kept of alerts, on the desk's thread, and must not wait.
     std::function<void(std::string)> keep_alerts{};
   };
-  // Asked at once beyond what stops robots: more are refused.
+  // So many errands, apart from stops, are under way at once. More are refused.
   static constexpr std::size_t kMostErrands = 16;
   static constexpr std::size_t kMostStops = 64;
-  static constexpr std::size_t kMostLooks = 8;  // robots
-  // The state is told at most so often.
+  static constexpr std::size_t kMostLooks = 8;  // cameras
+  // The state is published at most so often.
   static constexpr std::chrono::milliseconds kNewsEvery{200};
-  // Whether somebody has to see to something is looked at so often, whoever looks.
+  // Alerts are updated so often, whether or not a page is open.
   static constexpr std::chrono::milliseconds kSeeToEvery{500};
 
   Desk(AgentId self, std::unique_ptr<exchange::RouteExchange> exchange, Options options);
@@ -62,59 +62,64 @@ class Desk {
   Desk(const Desk&) = delete;
   Desk& operator=(const Desk&) = delete;
 
-  // What each robot answered, as fleet::TellRobots has it. kUnavailable: nobody was heard that is
-  // meant, or too much is asked at once; a stop has room of its own and goes before all else.
+  // Commands robots, and returns what each answered, as fleet::TellRobots does. Fails with
+  // kUnavailable if no robot was heard that it is for, or too much is asked at once. A stop has
+  // room of its own and precedes all else.
   [[nodiscard]] Result<std::vector<fleet::RobotsWord>> Tell(exchange::NowOrder order,
                                                             const fleet::NowTarget& target,
                                                             const std::string& reason);
-  // Its client is filled in. As fleet::SendMission: what is known of it first. kNotFound: neither
-  // this console nor a server has ever heard of such a robot; `also_unheard` sends it all the same.
+  // Sends a mission, whose client it sets, and returns what is known of it first, as
+  // fleet::SendMission does. Fails with kNotFound if neither this console nor a server has ever
+  // heard of such a robot; `also_unheard` sends it all the same.
   [[nodiscard]] Result<mission::Report> Send(mission::Mission mission, bool also_unheard = false);
-  // Alerts: all that are kept, as openapi.yaml has them, and whether they outlive the console.
+  // Returns all alerts that are kept, as openapi.yaml has them.
   [[nodiscard]] Result<nlohmann::ordered_json> AllAlerts();
   [[nodiscard]] bool keeps_alerts() const { return options_.keep_alerts != nullptr; }
-  // As Alerts::Acknowledge.
+  // Does as Alerts::Acknowledge.
   [[nodiscard]] Result<void> Acknowledge(const std::string& alert, const std::string& by);
-  // As FleetState::Forget; alerts about it end.
+  // Does as FleetState::Forget, and ends alerts about the robot.
   [[nodiscard]] Result<void> Forget(const AgentId& robot);
   // Passes on how a robot that teaches is to be driven, and waits for nothing.
   [[nodiscard]] Driving::Verdict Drive(const AgentId& robot, const Driving::Word& word) {
     return driving_.Hear(robot, word, Clock::now());
   }
-  // A page of what servers keep, the newest first.
+  // These return a page of what servers keep, the newest first.
   [[nodiscard]] Result<exchange::MissionReply> Missions(const mission::Query& query);
   [[nodiscard]] Result<exchange::MissionReply> Commands(const mission::Query& query);
-  // What a server has, or finds, of routes.
+  // Returns the routes that a server has, or finds.
   [[nodiscard]] Result<exchange::CatalogReply> Routes(const route::RouteQuery& query);
-  // The revisions that have changed. kConflict: a server says why it changes nothing.
+  // Returns the revisions that have changed. Fails with kConflict if a server refuses, and says
+  // why.
   [[nodiscard]] Result<exchange::CatalogReply> Edit(const route::RouteEdit& edit);
-  // A page of what a server answers, from its line `first` on: to "way FROM TO", or, to no words,
-  // how routes are joined. kConflict: a server says why not.
+  // Returns a page of a server's answer, from its line `first` on: to "way FROM TO" or, without
+  // words, how routes are joined. Fails with kConflict if a server refuses, and says why.
   [[nodiscard]] Result<exchange::NetworkReply> Network(const std::string& words,
                                                        std::uint32_t first);
-  // Has servers change that, in words; what is so now. kConflict likewise.
+  // Asks servers to change that, in words, and returns what holds now. Fails with kConflict
+  // likewise.
   [[nodiscard]] Result<exchange::NetworkReply> Join(const std::string& words);
 
-  // All that is measured, for Prometheus.
+  // Returns all metrics, for Prometheus.
   [[nodiscard]] Result<http::MetricsText> Measure();
-  // What a robot's camera sees now; those who look through the same one at once share the picture.
-  // Null: it did not answer. kUnavailable: too many are looked through at once.
+  // Returns what a robot's camera sees now. Callers that look through the same camera at once share
+  // the picture. Returns null if the robot did not answer. Fails with kUnavailable if too many
+  // cameras are looked through at once.
   [[nodiscard]] Result<std::shared_ptr<const exchange::Glance>> Look(const AgentId& robot);
 
   struct News {
     std::uint64_t number = 0;  // counts up from 1
     std::shared_ptr<const nlohmann::ordered_json> state{};
   };
-  // The latest, once that is newer than `number`; null when nothing has changed within `most`, or
-  // the desk is closed. Who asks looks: only while somebody does is there news, and are servers
-  // asked.
+  // Returns the latest state once it is newer than `number`, or null if nothing has changed within
+  // `most` or the desk is closed. A caller counts as an open page: without one there is no news,
+  // and no server is asked.
   [[nodiscard]] std::shared_ptr<const News> See(std::uint64_t number,
                                                 std::chrono::milliseconds most);
 
-  // Nothing is taken on any more, and whoever waits is let go.
+  // Accepts nothing more, and releases all callers that wait.
   void Close();
   [[nodiscard]] bool closed();
-  // Why its thread has ended by itself, which closes it; nothing: it has not.
+  // Returns why the thread has ended by itself, which closes the desk, or nothing if it has not.
   [[nodiscard]] std::optional<Error> failed();
 
  private:
@@ -128,9 +133,9 @@ class Desk {
   template <typename AnErrand>
   [[nodiscard]] auto CarryOut(std::shared_ptr<AnErrand> errand, bool is_stop,
                               std::chrono::milliseconds timeout);
-  // False: it is one too many.
+  // Returns false if it is one too many.
   [[nodiscard]] bool Take(std::shared_ptr<Errand> errand, bool is_stop);
-  // Not valid: it is one too many.
+  // Returns an invalid future if it is one too many.
   [[nodiscard]] std::shared_future<Seen> LookUnderWay(const AgentId& robot);
   void Begin();
   void Say(Clock::time_point now);
@@ -144,7 +149,7 @@ class Desk {
   const AgentId self_;
   const Options options_;
 
-  // The thread's own.
+  // These belong to the thread.
   std::unique_ptr<exchange::RouteExchange> exchange_;
   FleetState state_;
   Alerts alerts_;
@@ -162,12 +167,12 @@ class Desk {
   std::optional<Error> failed_;
   std::deque<std::shared_ptr<Errand>> stops_;
   std::deque<std::shared_ptr<Errand>> others_;
-  std::size_t under_way_ = 0;  // of the others, those that wait included
+  std::size_t under_way_ = 0;  // all errands but stops, including those that wait
   std::uint64_t refused_ = 0;
   std::map<AgentId, std::shared_future<Seen>> looks_;
   std::uint64_t news_count_ = 0;
-  std::shared_ptr<const News> news_;  // null while nobody looks
-  int looking_ = 0;                   // who waits in See now
+  std::shared_ptr<const News> news_;  // null while no page is open
+  int looking_ = 0;                   // callers that wait in See now
   Clock::time_point looked_at_{};
   std::condition_variable changed_;
 

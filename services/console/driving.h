@@ -14,12 +14,13 @@
 
 namespace trailcast::console {
 
-// How robots are driven by the people at this console: of several at one robot the first, until
-// that is silent for a moment. A word that waits is replaced by the next. Any thread.
+// This is teleoperation by the people at this console. If several drive one robot, the first
+// counts, until they are silent for a moment. A command that waits is replaced by the next. It may
+// be used from any thread.
 class Driving {
  public:
   using Time = mission::DriverSeat::Time;
-  // Robots' names come from strangers: more are not kept.
+  // Robots' names come from strangers, so no more than these are kept.
   static constexpr std::size_t kMostRobots = 256;
   static constexpr std::size_t kMostHeard = 1024;
   // A robot that was not heard for so long does not hear this console either.
@@ -28,17 +29,17 @@ class Driving {
   struct Word {
     double linear_mps = 0.0;
     double turn_radps = 0.0;
-    std::string driver{};       // a page, or a program
-    std::uint64_t said_ms = 0;  // by its own clock
+    std::string driver{};       // a page or a program
+    std::uint64_t said_ms = 0;  // by the driver's own clock
   };
-  // Takes what a robot says of itself: driving goes to those alone that are heard and teach.
+  // Takes a robot's status: only robots that are heard and teach are driven.
   void Note(const exchange::AgentStatus& status, Time now);
 
   enum class Verdict { kGood, kLate, kTaken, kUnknown, kTeachesNothing };
-  // kUnknown: no robot of this name is heard.
+  // Takes a command. kUnknown means that no robot of this name is heard.
   [[nodiscard]] Verdict Hear(const AgentId& robot, const Word& word, Time now);
 
-  // What robots are to be told: of each the latest, once.
+  // Returns the commands to robots, once: the latest for each.
   [[nodiscard]] std::vector<exchange::DriveCommand> Take(const AgentId& self);
 
  private:

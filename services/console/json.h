@@ -10,31 +10,31 @@
 
 namespace trailcast::console {
 
-// Bodies of requests, as openapi.yaml has them. What is read may be anything: kInvalidArgument says
-// what was expected.
+// These read bodies of requests, as openapi.yaml has them. A body may be anything. Errors are
+// kInvalidArgument and say what was expected.
 
-// {"reason": ".."}, or nothing at all.
+// Reads {"reason": ".."}, or an empty body.
 [[nodiscard]] Result<std::string> ReadReason(const std::string& body);
-// The same of a body that may be anything: made one line, and empty where there is none.
+// Reads the same from any body, makes it one line, and returns an empty text if there is none.
 [[nodiscard]] std::string ReasonIfAny(const std::string& body);
 
 struct SendBody {
   std::string orders;
-  std::string id;  // empty: to be drawn
+  std::string id;  // empty if it is to be drawn
   std::uint32_t valid_s = 600;
   bool goes_on = false;
-  bool unheard = false;  // also a robot that nobody has heard of
+  bool unheard = false;  // also to a robot that nobody has heard of
 };
 [[nodiscard]] Result<SendBody> ReadSend(const std::string& body);
 
-// How `route`, by its name or id, is to be changed.
+// Reads how `route`, a name or id, is to be changed.
 [[nodiscard]] Result<route::RouteEdit> ReadRouteEdit(const std::string& route,
                                                      const std::string& body);
 
-// {"linear_mps", "turn_radps", "driver", "said_ms"}: all of it.
+// Reads {"linear_mps", "turn_radps", "driver", "said_ms"}, all of which are required.
 [[nodiscard]] Result<Driving::Word> ReadDrive(const std::string& body);
 
-// {"words": ".."}: what is changed of the network, in a server's words (network/words.h).
+// Reads {"words": ".."}, a change of the network in a server's words (network/words.h).
 [[nodiscard]] Result<std::string> ReadNetworkEdit(const std::string& body);
 
 struct LogInBody {
@@ -43,9 +43,9 @@ struct LogInBody {
 };
 [[nodiscard]] Result<LogInBody> ReadLogIn(const std::string& body);
 
-// `asks`: whether one has to log in.
+// Returns the answer about the user. `asks` tells whether users have to log in.
 [[nodiscard]] std::string MeBody(const users::Who& who, bool asks, const std::string& only_looks);
-// Which revision is to be fetched: {"route": its id, "teaching": "1f"}.
+// Reads which revision is to be fetched: {"route": its id, "teaching": "1f"}.
 [[nodiscard]] Result<route::RouteKey> ReadFetch(const std::string& body);
 
 [[nodiscard]] std::string ErrorBody(const std::string& why);

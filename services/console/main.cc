@@ -52,7 +52,7 @@ bool IsLoopback(const std::string& host) {
   return host == "127.0.0.1" || host == "::1" || host == "localhost";
 }
 
-// What is missing for others to be let in; empty: nothing.
+// Returns what is missing before others may log in. It is empty if nothing is.
 std::string Missing(const WebOptions& options) {
   if (options.tls_certificate.empty() != options.tls_key.empty()) {
     return "--tls-certificate and --tls-key go together";
@@ -162,7 +162,7 @@ int Run(int argc, char** argv) {
   app.footer(kFooter);
   program::CommonOptions common;
   common.name = "console";
-  common.discovery = "mesh";  // in a star it would not hear what robots say of themselves
+  common.discovery = "mesh";  // in a star it would not hear robots' statuses
   program::AddCommonOptions(app, common);
   WebOptions options;
   app.add_option("--http-host", options.host, "Address of this machine to listen on")

@@ -11,18 +11,18 @@
 
 namespace trailcast::console {
 
-// What a server lists of its network, a line each (network/words.h), of which a page is shown a
-// part: there may be ten thousand routes. What is not understood is left out.
+// This is a server's list of its network (network/words.h), a part of which is shown, because there
+// may be ten thousand routes. Lines that are not understood are left out.
 class NetworkList {
  public:
-  // Joints, proposed ones, closed and limited parts, narrow places and names shown at once, of each
-  // kind.
+  // So many junctions, proposed ones, closed and limited parts, narrow places and names are shown
+  // at once, of each kind.
   static constexpr std::size_t kMostMarks = 2000;
 
-  // `whole`: these are all.
+  // The `lines` are all of the network if they are `whole`.
   NetworkList(const std::vector<std::string>& lines, bool whole);
 
-  // What openapi.yaml calls NetworkPart.
+  // Returns openapi.yaml's NetworkPart.
   [[nodiscard]] std::string Body(const NetworkQuery& query) const;
 
  private:
@@ -30,11 +30,11 @@ class NetworkList {
   static constexpr auto kKinds = static_cast<std::size_t>(Kind::kName) + 1;
   struct Route {
     std::string name{};
-    std::string lower{};  // that is searched in: names of places upon it, too
+    std::string lower{};  // searched text, including names of places on it
     std::string line{};
-    std::vector<std::size_t> joined{};  // to others
+    std::vector<std::size_t> joined{};  // the routes that it is joined to
   };
-  // With which routes it has to do.
+  // This is one line of the network, and the routes that it is about.
   struct Mark {
     Kind kind = Kind::kJoint;
     std::size_t route = 0;
@@ -48,10 +48,10 @@ class NetworkList {
   [[nodiscard]] std::vector<std::size_t> Around(const std::string& route) const;
   [[nodiscard]] std::vector<std::size_t> WithMet(const std::string& route) const;
 
-  std::vector<Route> routes_;  // by name
+  std::vector<Route> routes_;  // sorted by name
   std::map<std::string, std::size_t> numbers_;
   std::vector<Mark> marks_;
-  std::size_t joints_ = 0;  // those of routes that are no more included
+  std::size_t joints_ = 0;  // number of junctions, including those of routes that no longer exist
   bool whole_;
 };
 

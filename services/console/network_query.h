@@ -5,12 +5,12 @@
 
 namespace trailcast::console {
 
-// Which part of the network is drawn.
+// This is the part of the network that is drawn.
 struct NetworkQuery {
-  std::string search{};      // is in the name of a route, or of a place on it; empty: all
-  std::string around{};      // a route, and those that joints lead to or from, the nearest first
-  std::string of{};          // a route, and those that joints, proposed ones too, lead to or from
-  std::uint32_t limit = 60;  // routes
+  std::string search{};  // a part of a route's name, or of a place's on it; empty for all
+  std::string around{};  // a route, and those that junctions lead to or from, the nearest first
+  std::string of{};      // a route, and those that junctions, also proposed ones, lead to or from
+  std::uint32_t limit = 60;  // in routes
 };
 
 }  // namespace trailcast::console

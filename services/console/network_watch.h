@@ -15,29 +15,31 @@
 
 namespace trailcast::console {
 
-// All lines of a server's answer; not `whole` where there are more than are taken.
+// These are all lines of a server's answer. It is not `whole` if there are more than are accepted.
 struct NetworkAnswer {
   std::vector<std::string> lines{};
   bool whole = true;
 };
 [[nodiscard]] Result<NetworkAnswer> AskForNetwork(Desk& desk, const std::string& words);
 
-// How routes are joined, as a server last said to whoever looked: it is asked once for all who look
-// at once, and the less often the longer its answer takes. Any thread.
+// This is how routes are joined, by a server's last answer. One question serves all callers at the
+// same time, and the longer its answer takes, the less often it is asked. It may be used from any
+// thread.
 class NetworkWatch {
  public:
-  // Of a list that somebody asks for.
+  // A list is fresh for this long.
   static constexpr std::chrono::milliseconds kFresh{2000};
-  // Servers are asked for at most one part in so many of the time.
+  // Asking servers takes at most one in so many parts of the time.
   static constexpr int kShare = 20;
-  // Who waits for the first list; more are refused.
+  // So many callers may wait for the first list. More are refused.
   static constexpr int kMostWaiting = 4;
 
   explicit NetworkWatch(Desk& desk) : desk_(desk) {}
 
-  // While a newer one is under way, the last. kUnavailable: no server answers, or too many wait.
+  // Returns the list, or the last one while a newer one is being fetched. Fails with kUnavailable
+  // if no server answers, or too many wait.
   [[nodiscard]] Result<std::shared_ptr<const NetworkList>> Now();
-  // What is known is of before.
+  // Notes that the network has changed since the list was made.
   void Changed();
 
  private:

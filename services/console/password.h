@@ -6,8 +6,8 @@
 
 namespace trailcast::console {
 
-// A line of standard input; from a terminal after `prompt`, and not shown. kInvalidArgument at the
-// end of input.
+// Reads a line of standard input. On a terminal it shows `prompt`, and does not show the line.
+// Fails with kInvalidArgument at the end of input.
 [[nodiscard]] Result<std::string> ReadPassword(const std::string& prompt);
 
 }  // namespace trailcast::console

@@ -9,17 +9,17 @@
 
 namespace trailcast::console {
 
-// A file as it was when it was looked at.
+// This is a file as it was when it was read.
 struct RunFile {
   std::string id;    // 16 hexadecimal digits, made of its name
-  std::string name;  // beneath the folder
+  std::string name;  // below the folder
   std::uint64_t bytes = 0;
   std::int64_t written_unix_ms = 0;
 
   bool operator==(const RunFile&) const = default;
 };
 
-// A file that is open to be read, by the name that this process has for it.
+// This is a file that is open for reading, with the name that this process has for it.
 class OpenFile {
  public:
   explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
@@ -32,18 +32,18 @@ class OpenFile {
   int descriptor_;
 };
 
-// The files of a folder, and of folders in it, that may be logs of runs. What it hands out lies
-// there in truth: no link is followed, whoever may write there.
+// This finds the files of a folder, and of folders in it, that may be logs of runs. It follows no
+// links, so whoever may write there, the files that it opens do lie there.
 class RunFolder {
  public:
   static constexpr std::size_t kMostFiles = 5000;  // the newest
-  static constexpr int kDeepest = 2;               // folders in one another
+  static constexpr int kDeepest = 2;               // nested folders
 
   explicit RunFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // The newest first. kUnavailable: the folder cannot be read.
+  // Returns the files, the newest first. Fails with kUnavailable if the folder cannot be read.
   [[nodiscard]] Result<std::vector<RunFile>> Scan() const;
-  // kNotFound: it is there no more, or no plain file.
+  // Fails with kNotFound if the file no longer exists, or is no plain file.
   [[nodiscard]] Result<OpenFile> Open(const RunFile& file) const;
 
  private:

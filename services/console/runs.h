@@ -23,7 +23,7 @@
 
 namespace trailcast::console {
 
-// What a list has of a run. Nothing: its log does not say.
+// This is a run as a list shows it. Values that its log does not have are empty.
 struct RunSummary {
   std::string robot{};
   std::string route{};
@@ -33,13 +33,13 @@ struct RunSummary {
   std::optional<double> began_unix_ms{};
   double lasted_s = 0.0;
   std::optional<double> driven_m{};
-  double progress = 0.0;  // of the route
-  std::string state{};    // in which it ended; empty: its log breaks off
+  double progress = 0.0;  // share of the route
+  std::string state{};    // its last state; empty if its log breaks off
   std::string reason{};
 };
 [[nodiscard]] RunSummary Summarise(const agent::RunLog& log);
 
-// A log that was read; pictures are looked up in its file, by one thread at a time.
+// This is a log that was read. Its pictures are searched in its file, by one thread at a time.
 class OpenedRun {
  public:
   OpenedRun(RunFile file, agent::RunLog log, std::unique_ptr<agent::RunPictures> pictures);
@@ -50,7 +50,8 @@ class OpenedRun {
   explain::Story story;
   [[nodiscard]] bool has_pictures() const { return pictures_ != nullptr; }
 
-  // kUnavailable: others look for too many already. Of a row that is there.
+  // This is what a frame shows. The row must exist. Fails with kUnavailable if other threads search
+  // for too many pictures already.
   struct Seen {
     std::vector<agent::SeenFeature> features;
     std::optional<agent::RunPictures::Picture> picture;
@@ -62,21 +63,21 @@ class OpenedRun {
   std::unique_ptr<agent::RunPictures> pictures_;
 };
 
-// The logs of runs in a folder, and those that people uploaded. All of them are read by one thread
-// of low priority. May be used from any thread.
+// These are the logs of runs in a folder, and those that people uploaded. One thread of low
+// priority reads all of them. It may be used from any thread.
 class Runs {
  public:
-  static constexpr std::size_t kMostUploads = 4;  // that are kept
+  static constexpr std::size_t kMostUploads = 4;  // uploads that are kept
   static constexpr std::size_t kMostUploadsAtOnce = 2;
   static constexpr std::uint64_t kMostUploadBytes = 128U << 20U;
-  static constexpr std::size_t kMostWanted = 8;          // that wait to be read
-  static constexpr std::size_t kMostWaiting = 4;         // threads that wait for it
-  static constexpr std::size_t kMostRows = 200'000;      // of a log,
-  static constexpr std::size_t kMostRowsKept = 400'000;  // and of all that are kept
+  static constexpr std::size_t kMostWanted = 8;          // logs that wait to be read
+  static constexpr std::size_t kMostWaiting = 4;         // threads that wait for them
+  static constexpr std::size_t kMostRows = 200'000;      // of one log
+  static constexpr std::size_t kMostRowsKept = 400'000;  // of all logs that are kept
   static constexpr std::size_t kMostEvents = 20'000;
   static constexpr std::size_t kMostAPage = 50;
 
-  // `folder`: empty: there is none.
+  // An empty `folder` means that there is none.
   explicit Runs(std::filesystem::path folder);
   ~Runs();
   Runs(const Runs&) = delete;
@@ -85,39 +86,42 @@ class Runs {
   struct Listed {
     RunFile file;
     RunSummary summary;
-    bool is_written = false;  // to, still
+    bool is_written = false;  // it is still being written
   };
   struct Page {
     std::vector<Listed> runs;  // the last written first
-    std::size_t next = 0;      // to be skipped for the next page; 0: there is none
-    std::size_t unread = 0;    // files that are not looked at yet
+    std::size_t next = 0;      // to be skipped for the next page; 0 if there is none
+    std::size_t unread = 0;    // files that were not read yet
   };
-  // Waits for all to be looked at, up to `most`. kConflict: there is no folder.
+  // Returns a page, after waiting for all logs to be summarised for at most `most`. Fails with
+  // kConflict if there is no folder.
   [[nodiscard]] Result<Page> List(const RunsQuery& query, std::chrono::milliseconds most);
 
-  // Waits for it, up to `most`; null: it is not read yet. kNotFound; kUnavailable: too many wait to
-  // be read; another error: it cannot be read, and why.
+  // Returns a run, after waiting for it for at most `most`, or null if it is not read yet. Fails
+  // with kNotFound; with kUnavailable if too many wait to be read; and with another error that says
+  // why it cannot be read.
   [[nodiscard]] Result<std::shared_ptr<const OpenedRun>> Find(const std::string& id,
                                                               std::chrono::milliseconds most);
 
-  // A log that is uploaded: to be written to `path`, and then found under its id, or dropped.
+  // This is a log that is being uploaded. It is to be written to `path`, and is then found under
+  // its id, or dropped.
   struct Upload {
     std::string id;
     std::filesystem::path path;
   };
-  // kUnavailable: others are under way.
+  // Fails with kUnavailable if others are being uploaded.
   [[nodiscard]] Result<Upload> BeginUpload();
   void EndUpload(const Upload& upload, bool whole);
 
-  // Nothing is read any more, and whoever waits is let go.
+  // Ends reading, and releases all callers that wait.
   void Close();
 
  private:
   using Clock = std::chrono::steady_clock;
   struct Entry {
     RunFile file;
-    std::optional<RunFile> looked_at;     // as it was then
-    std::optional<RunSummary> summary{};  // nothing: not a log
+    std::optional<RunFile> looked_at;     // as it was when it was summarised
+    std::optional<RunSummary> summary{};  // empty if it is no log
     Clock::time_point at{};
   };
   struct Opened {
@@ -127,11 +131,11 @@ class Runs {
   };
   struct Kept {
     RunFile file;
-    std::filesystem::path path{};  // of an uploaded one; empty: it is in the folder
+    std::filesystem::path path{};  // for an upload; empty if it is in the folder
   };
 
   void Run();
-  // With mutex_ held, which these let go while they work on a file.
+  // Callers hold mutex_, which these release while they work on a file.
   bool Work(std::unique_lock<std::mutex>& lock);
   void Scan(std::unique_lock<std::mutex>& lock);
   void LookAt(std::unique_lock<std::mutex>& lock, const std::string& id);
@@ -151,7 +155,7 @@ class Runs {
   std::size_t waiting_ = 0;
   std::optional<Error> scan_failed_;
   std::optional<Clock::time_point> scanned_at_;
-  bool asked_ = false;                    // what is there
+  bool asked_ = false;                    // for a list
   std::map<std::string, Entry> entries_;  // by id
   std::vector<std::string> order_;        // the last written first
   std::deque<Kept> uploads_;              // the oldest first

@@ -5,7 +5,7 @@
 
 namespace trailcast::console {
 
-// Which runs are listed; empty: any.
+// These runs are listed. Empty fields match any.
 struct RunsQuery {
   std::string robot{};
   std::string route{};

@@ -13,9 +13,9 @@
 
 namespace trailcast::console {
 
-// Where a route lies on a site: its beginning, in metres to the right and up from the lower left
-// corner of the floor plan; the heading there, counter-clockwise from rightwards; and how much
-// longer the scout's metres are drawn.
+// This is where a route lies on a site: its beginning, in metres to the right and up from the lower
+// left corner of the floor plan; the heading there, counter-clockwise from rightwards; and the
+// factor by which the scout's metres are drawn longer.
 struct Placement {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -25,10 +25,10 @@ struct Placement {
   bool operator==(const Placement&) const = default;
 };
 
-// A request's body. kInvalidArgument.
+// Reads a request's body. Fails with kInvalidArgument.
 [[nodiscard]] Result<Placement> ReadPlacement(const std::string& body);
 
-// The whole world's place of the lower left corner of a plan whose up is north.
+// This is the place on the globe of the lower left corner of a plan whose up is north.
 struct Origin {
   double longitude_deg = 0.0;
   double latitude_deg = 0.0;
@@ -39,20 +39,21 @@ struct SiteFile {
   std::optional<double> metres_per_pixel{};
   std::optional<Origin> origin{};
 };
-// site.json, and placements.json. kCorrupt.
+// These read site.json and placements.json. They fail with kCorrupt.
 [[nodiscard]] Result<SiteFile> ReadSiteFile(const std::string& text);
 using Placements = std::map<RouteId, Placement>;
 [[nodiscard]] Result<Placements> ReadPlacements(const std::string& text);
 
-// A folder with a floor plan (plan.png or plan.jpg, and in site.json how many metres a pixel is)
-// and where people have put routes upon it (placements.json, written here). May be used from any
-// thread.
+// This is a folder with a floor plan (plan.png or plan.jpg, and in site.json its metres for each
+// pixel) and the places on it at which people put routes (placements.json, written here). It may be
+// used from any thread.
 class Site {
  public:
   static constexpr std::size_t kMostPlacements = 10'000;
   static constexpr std::size_t kMostPlanBytes = 32U << 20U;
 
-  // kNotFound without the folder; kCorrupt, naming the file, for what is none of this.
+  // Fails with kNotFound without the folder, and with kCorrupt, which names the file, for wrong
+  // content.
   [[nodiscard]] static Result<std::unique_ptr<Site>> Open(const std::filesystem::path& folder);
 
   struct Plan {
@@ -62,12 +63,13 @@ class Site {
   };
   [[nodiscard]] const std::optional<Plan>& plan() const { return plan_; }
 
-  // On the disk when it returns; nothing: the route is taken from the site.
+  // Places a route, or removes it from the site if there is no placement. It is on the disk when
+  // this returns.
   [[nodiscard]] Result<void> Place(const RouteId& route, const std::optional<Placement>& placement);
   // Returns where the floor plan's lower left corner is, if its site.json says so.
   [[nodiscard]] const std::optional<Origin>& origin() const { return origin_; }
   [[nodiscard]] Placements placements();
-  // As openapi.yaml's Site.
+  // Returns openapi.yaml's Site.
   [[nodiscard]] std::string Body();
 
  private:
@@ -81,7 +83,7 @@ class Site {
   Placements placements_;
 };
 
-// Of a console without one.
+// Returns the body for a console without a site.
 [[nodiscard]] std::string NoSiteBody();
 
 }  // namespace trailcast::console

@@ -19,14 +19,14 @@
 
 namespace trailcast::console {
 
-// Routes on their way as files: fetched from servers to be downloaded, or uploaded to be delivered.
-// Each has a thread and a member of the network of its own, so that nothing else waits for it. May
-// be used by any thread.
+// This transfers routes as files: fetched from servers to be downloaded, or uploaded to be
+// delivered. Each has a thread and a network member of its own, so that nothing else waits for it.
+// It may be used from any thread.
 class Transfers {
  public:
   using Join = std::function<Result<fleet::OperatorPeer>(const exchange::TopicUse&)>;
   static constexpr std::size_t kMostAtOnce = 2;
-  static constexpr std::size_t kMostKept = 6;  // the files of those that are over included
+  static constexpr std::size_t kMostKept = 6;  // including the files of those that have ended
   static constexpr std::uint64_t kMostUploadBytes = 256U << 20U;
 
   enum class State : std::uint8_t { kUnderWay, kDone, kFailed };
@@ -41,18 +41,19 @@ class Transfers {
     std::string detail{};  // for people
   };
 
-  // `join` gives a transfer its place in the network; `timeout`: how long a server may give no
-  // sign.
+  // `join` gives a transfer its member of the network, and `timeout` is how long a server may be
+  // silent.
   explicit Transfers(Join join,
                      std::chrono::milliseconds timeout = std::chrono::milliseconds(10'000));
-  // Ends those that are under way; their files go.
+  // Ends those that are under way, and removes their files.
   ~Transfers();
   Transfers(const Transfers&) = delete;
   Transfers& operator=(const Transfers&) = delete;
 
-  // Fetches a complete revision. kUnavailable: too many are under way.
+  // Fetches a complete revision. Fails with kUnavailable if too many are under way.
   [[nodiscard]] Result<Progress> Fetch(const route::RouteInfo& info);
-  // A file that is to be uploaded, to be written to `path`, and then delivered, or given up.
+  // This is a file that is being uploaded. It is to be written to `path`, and then delivered or
+  // given up.
   struct Upload {
     std::string id;
     std::filesystem::path path;
@@ -61,9 +62,9 @@ class Transfers {
   [[nodiscard]] Progress Deliver(const std::string& id);
   void GiveUp(const std::string& id);
 
-  // kNotFound: there is no such one, or no more.
+  // Fails with kNotFound if there is no such transfer, or no longer.
   [[nodiscard]] Result<Progress> Find(const std::string& id);
-  // Of one that was fetched.
+  // This is the file of a transfer that was fetched.
   struct File {
     std::filesystem::path path;
     std::string name;  // for a person's folder
@@ -79,7 +80,7 @@ class Transfers {
 
   using Work = std::function<Result<std::string>(Job&, const fleet::TransferWatch&)>;
 
-  [[nodiscard]] Result<Job*> MakeRoom();  // with mutex_ held
+  [[nodiscard]] Result<Job*> MakeRoom();  // callers hold mutex_
   void Start(Job& job, Work work);
   [[nodiscard]] Result<std::string> FetchTo(Job& job, const route::RouteInfo& info,
                                             const fleet::TransferWatch& watch);
@@ -90,7 +91,7 @@ class Transfers {
   const std::chrono::milliseconds timeout_;
   const Result<WorkFolder> folder_ = WorkFolder::Make();
   std::atomic<bool> over_{false};
-  std::mutex mutex_;  // guards what follows, but for a job's path
+  std::mutex mutex_;  // guards what follows except a job's path
   std::map<std::string, std::unique_ptr<Job>> jobs_;
   std::deque<std::string> order_;  // the oldest first
 };

@@ -38,7 +38,7 @@ CLI::Validator UserNameValidator() {
           "NAME"};
 }
 
-// Its hash.
+// Asks for a password and returns its hash.
 Result<std::string> NewPassword(const std::string& name) {
   auto password = ReadPassword(fmt::format("Password for {}: ", name));
   if (!password) return password;
@@ -65,7 +65,7 @@ Result<void> Add(const std::string& file, const std::string& name, users::Role r
     return Fail(ErrorCode::kConflict, "there is a user '{}' in {} already: remove it first", name,
                 file);
   };
-  // Before somebody thinks up a password.
+  // This comes before a person thinks up a password.
   if (std::filesystem::exists(file)) {
     const auto users = users::LoadUsers(file);
     if (!users) return tl::unexpected(users.error());

@@ -5,12 +5,12 @@
 
 namespace trailcast::console {
 
-// `trailcast-console users`: add, list, remove, passwd.
+// This is `trailcast-console users`: add, list, remove, passwd.
 class UsersCommand {
  public:
   explicit UsersCommand(CLI::App& app);
 
-  // Whether that is what the command line, parsed, asks for; then Run does it and gives the exit
+  // Returns whether the parsed command line asks for this. Run then does it and returns the exit
   // status.
   [[nodiscard]] bool asked_for() const { return command_->parsed(); }
   [[nodiscard]] int Run() const;

@@ -22,17 +22,17 @@ namespace trailcast::console {
 
 class Runs;
 
-// The page and openapi.yaml's API over HTTP.
+// This serves the page and openapi.yaml's API over HTTP.
 class Web {
  public:
   // A browser has one for each of its tabs.
   static constexpr int kMostStreams = 16;
   static constexpr std::chrono::seconds kAliveEvery{5};
 
-  // `desk`, `atlas`, `site` and `runs`, both of which may be null, outlive this. Port 0: any that
-  // is free; `names`: by which this host is known besides localhost, in lower case; `join`: how
-  // files of routes get into the fleet, without which none are carried. kUnavailable when it cannot
-  // be listened on.
+  // `desk`, `atlas`, `site` and `runs` outlive this; the last two may be null. Port 0 is any that
+  // is free. `names` are this host's names besides localhost, in lower case. `join` is how files of
+  // routes get into the fleet; without it none are transferred. Fails with kUnavailable when the
+  // port cannot be listened on.
   [[nodiscard]] static Result<std::unique_ptr<Web>> Open(Desk& desk, Atlas& atlas, Site* site,
                                                          const std::string& host, int port,
                                                          std::set<std::string> names,
@@ -62,7 +62,7 @@ class Web {
   std::atomic<std::uint64_t> streams_refused_{0};
   std::atomic<std::uint64_t> stream_bytes_{0};
   CommandCounts commands_;
-  http::Server server_;  // the last: its threads use the others
+  http::Server server_;  // the last member, because its threads use the others
 };
 
 }  // namespace trailcast::console

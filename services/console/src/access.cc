@@ -36,7 +36,7 @@ std::string CookieIn(const Request& request, const std::string& name) {
   return "";
 }
 
-// Null: there is none.
+// Returns nothing if there is none.
 std::optional<std::string> TokenIn(const Request& request) {
   const std::string header = request.get_header_value("Authorization");
   if (!header.starts_with(kBearer)) return std::nullopt;
@@ -59,7 +59,7 @@ void Turn(const users::Turned& turned, Response& response) {
 }  // namespace
 
 void Access::At(int port) {
-  // Under TLS such a name binds it to this host, and to https.
+  // Under TLS, the prefix binds the cookie to this host, and to https.
   cookie_ = fmt::format("{}trailcast-{}", encrypted() ? "__Host-" : "", port);
 }
 
@@ -89,7 +89,7 @@ std::optional<http::Refusal> Access::Judge(const Request& request) const {
     return http::Refusal{403, fmt::format("{} may not do this: that takes the role '{}'", who->name,
                                           NameOf(needed))};
   }
-  // A browser says which page a POST is from; without that it may be any.
+  // A browser tells which page a POST comes from. Without that, it may be any page.
   if (method != "GET" && !TokenIn(request) && !request.has_header("Origin")) {
     return http::Refusal{403,
                          "who is logged in by a cookie has to send an Origin; programs send a "
@@ -122,7 +122,7 @@ std::string Access::Session(const Request& request) const { return CookieIn(requ
 
 std::string Access::AddressOf(const Request& request) const {
   if (!entry_.behind_proxy) return http::AddressKey(request.remote_addr);
-  // The last one is what the proxy has seen; those before it anybody may have written.
+  // The proxy has seen the last one. A stranger may have written those before it.
   const std::size_t headers = request.get_header_value_count("X-Forwarded-For");
   const std::string header =
       request.get_header_value("X-Forwarded-For", headers == 0 ? 0 : headers - 1);
@@ -139,13 +139,13 @@ void Access::LogIn(const Request& request, Response& response) {
   const std::string address = PlainText(AddressOf(request), 64);
   const auto in = entry_.guard->LogIn(body->user, body->password, address);
   if (const auto* turned = std::get_if<users::Turned>(&in)) {
-    // Not the name: some type their password there.
+    // The name is not logged, because some people type their password there.
     spdlog::warn("console: a log-in from {} was refused", address.empty() ? "?" : address);
     return Turn(*turned, response);
   }
   spdlog::info("console: {} logs in from {}", body->user, address.empty() ? "?" : address);
   const auto& session = std::get<std::string>(in);
-  entry_.guard->LogOut(Session(request));  // that of before, if this browser had one
+  entry_.guard->LogOut(Session(request));  // this browser's earlier session, if it had one
   SetCookie(response, session, false);
   const auto who = entry_.guard->WhoIn(session).value_or(users::Who{});
   Answer(response, 200, MeBody(who, true, entry_.only_looks));

@@ -34,7 +34,7 @@ Json Shown(const Alert& alert) {
           {"ended_unix_ms", alert.open() ? Json(nullptr) : Json(alert.ended_unix_ms)}};
 }
 
-// Empty where there is none of this kind.
+// Returns an empty text if there is none of this name.
 std::string TextIn(const Json& json, const char* name) {
   const auto text = json.find(name);
   return text != json.end() && text->is_string() ? text->get<std::string>() : "";

@@ -46,7 +46,7 @@ bool Atlas::closed() {
 const Atlas::Sheet* Atlas::Held(const Wanted& wanted) const {
   const Sheet* sheet = sheets_.Find(wanted);
   if (sheet == nullptr || !sheet->done) return sheet;
-  // A teaching never changes; which is active does.
+  // A teaching never changes, but the active one may be another.
   const bool lasts = sheet->shape && wanted.second;
   return lasts || Clock::now() < sheet->done_at + kAskAgain ? sheet : nullptr;
 }
@@ -73,7 +73,7 @@ Result<Atlas::Found> Atlas::Find(const RouteId& route, std::optional<TeachingId>
     --waiting_;
   }
   const Sheet* sheet = sheets_.Find(wanted);
-  if (sheet == nullptr) return Found{};  // others have taken its room
+  if (sheet == nullptr) return Found{};  // others have taken its place
   if (!sheet->done) return Found{.fetched = sheet->fetched};
   if (!sheet->shape) return tl::unexpected(sheet->shape.error());
   Found found{.shape = *sheet->shape, .fetched = 1.0};
@@ -94,7 +94,7 @@ void Atlas::Run() {
   while (!closed()) {
     const auto wanted = Next(kIdle);
     if (!wanted) {
-      // What others are answered is heard as well.
+      // Taking messages keeps replies to other members from piling up.
       if (peer) (void)peer->exchange->Take(milliseconds(0));
       if (peer && Clock::now() > used_at + kLeaveAfter) peer.reset();
       continue;

@@ -1,4 +1,4 @@
-// What of the fleet somebody has to see to, in words for people.
+// This file finds what in the fleet people have to see to, in words for people.
 #include <fmt/format.h>
 
 #include "services/console/fleet_state.h"
@@ -43,7 +43,7 @@ void FleetState::AddCauses(const Agent& agent, const Standing& standing, const A
   const auto with = [](std::string what, const std::string& detail) {
     return detail.empty() ? what : what + ": " + detail;
   };
-  // What it was last doing, without when: that goes on counting.
+  // This is what the robot was last doing. It has no time, because that would change all the time.
   const std::string last = fleet::LastSeenText(status, std::nullopt);
   const std::string orders =
       standing.mission == nullptr ? "" : " '" + standing.mission->mission.orders + "'";

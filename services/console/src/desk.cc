@@ -16,11 +16,11 @@ namespace {
 using exchange::Topic;
 using std::chrono::milliseconds;
 
-// A word that waits for the thread waits for this at most.
+// An errand waits for the thread for this long at most.
 constexpr milliseconds kTakeWait{10};
-// Servers, of what was heard of just now.
+// Servers are asked again so soon about missions that were just heard of.
 constexpr milliseconds kAskAgain{1000};
-// Of a route that a robot is on.
+// So many revisions of a robot's route are asked for.
 constexpr std::uint32_t kRevisionsAsked = 100;
 
 }  // namespace
@@ -31,7 +31,8 @@ exchange::TopicUse ConsoleTopics() {
                     Topic::kNetworkEdits, Topic::kNetworkRequests},
           .read = {Topic::kGlances, Topic::kNowAnswers, Topic::kMissionStates,
                    Topic::kMissionReplies, Topic::kCatalogReplies, Topic::kNetworkReplies},
-          // Said again all the time: to confirm each would cost the radio as much again.
+          // These are repeated all the time, and acknowledging each would cost the radio as much
+          // again.
           .overhear = {Topic::kAgents}};
 }
 
@@ -108,7 +109,7 @@ void Desk::ServeUntilClosed() {
   }
 }
 
-// A stop is said before anything else.
+// A stop is sent before anything else.
 void Desk::Begin() {
   std::deque<std::shared_ptr<Errand>> stops;
   std::deque<std::shared_ptr<Errand>> others;
@@ -130,17 +131,17 @@ void Desk::Begin() {
 
 void Desk::Say(Clock::time_point now) {
   for (const exchange::DriveCommand& command : driving_.Take(self_)) {
-    // What is lost is said anew, by whoever drives.
+    // A lost command needs no repetition, because the driver sends the next.
     if (state_.Teaches(command.agent)) (void)exchange_->Publish(command);
   }
   for (const exchange::NowCommand& stop : state_.TakeOpenStops(now)) {
-    (void)exchange_->Publish(stop);  // said again until it is answered
+    (void)exchange_->Publish(stop);  // repeated until it is answered
   }
   for (const auto& errand : errands_) {
     if (now < errand->say_at) continue;
     errand->say_at = now + errand->SayAgain();
     for (const exchange::Message& word : errand->Words()) {
-      // What could not be handed over is said again.
+      // A message that could not be sent is repeated.
       (void)exchange_->Publish(word);
       if (const auto* mission = std::get_if<mission::Mission>(&word)) {
         state_.Sent(*mission, NowUnixMs());
@@ -157,7 +158,8 @@ void Desk::Say(Clock::time_point now) {
     for (const auto& errand : done) under_way_ -= errand->counts ? 1 : 0;
   }
   for (const auto& errand : done) errand->End(state_);
-  // Who has its answer has room for the next question.
+  // The errand no longer counts before its caller gets the answer, so that the caller's next
+  // question has room.
   for (const auto& errand : done) errand->Finish();
 }
 
@@ -174,7 +176,7 @@ bool Desk::SomebodyLooks(Clock::time_point now) {
   return looking_ > 0 || (has_looked && now < looked_at_ + options_.looks_on);
 }
 
-// What is lost is asked for the next time.
+// A lost reply is asked for the next time.
 void Desk::AskServers(Clock::time_point now) {
   if (now < ask_at_) return;
   asked_at_ = now;
@@ -187,7 +189,7 @@ void Desk::AskServers(Clock::time_point now) {
       exchange::MissionRequest{.client = self_, .request = request, .query = latest});
 }
 
-// Whether somebody looks or not.
+// This runs whether or not a page is open.
 void Desk::SeeTo(Clock::time_point now) {
   if (now >= see_to_at_) {
     state_.Tick(now);
@@ -214,7 +216,7 @@ void Desk::ShowNews(Clock::time_point now) {
   }
   show_at_ = now + kNewsEvery;
   state_.Tick(now);
-  NoteAlerts(now);  // so that they are about what is shown
+  NoteAlerts(now);  // so that alerts match the state that is shown
   if (state_.lacks_missions()) ask_at_ = std::min(ask_at_, asked_at_ + kAskAgain);
   AskServers(now);
   for (const RouteId& route : state_.TakeLackingRoutes(now)) {

@@ -1,4 +1,4 @@
-// What other threads ask of a desk.
+// This file has what other threads ask of a desk.
 #include <algorithm>
 #include <utility>
 #include <variant>
@@ -18,9 +18,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Questions, whose answers may be long.
+// Questions are repeated more slowly, because their answers may be long.
 constexpr milliseconds kAskErrandAgain{500};
-// Beyond an errand's own time: the thread itself does not run.
+// Beyond an errand's own time, this shows that the thread itself does not run.
 constexpr milliseconds kGrace{3000};
 
 class TellErrand final : public ErrandFor<std::vector<fleet::RobotsWord>> {
@@ -89,7 +89,7 @@ class SendErrand final : public ErrandFor<mission::Report> {
   milliseconds timeout_;
 };
 
-// A mission's first step: whether there is such a robot.
+// This is a mission's first step: it finds whether there is such a robot.
 class WhoErrand final : public ErrandFor<std::optional<Error>> {
  public:
   explicit WhoErrand(AgentId robot) : robot_(std::move(robot)) {}
@@ -108,7 +108,7 @@ class WhoErrand final : public ErrandFor<std::optional<Error>> {
   std::optional<Error> unknown_;
 };
 
-// Done at once, by the desk's thread, with what is the thread's own.
+// The desk's thread does this at once, with what belongs to it.
 template <typename Reply>
 class LocalErrand final : public ErrandFor<Reply> {
  public:
@@ -129,11 +129,11 @@ class LocalErrand final : public ErrandFor<Reply> {
   std::optional<Result<Reply>> done_;
 };
 
-// One of servers, over when the first has answered.
+// This is a question to servers, which is over when the first has answered.
 template <typename Request, typename Reply>
 class Question final : public ErrandFor<Reply> {
  public:
-  // `wrong`: what it is when a server says why not.
+  // `wrong` is the error when a server refuses.
   Question(Request request, milliseconds timeout, ErrorCode wrong = ErrorCode::kUnavailable)
       : request_(std::move(request)), timeout_(timeout), wrong_(wrong) {}
 
@@ -166,7 +166,7 @@ using RouteChange = Question<exchange::RouteEditRequest, exchange::CatalogReply>
 using NetworkQuestion = Question<exchange::NetworkRequest, exchange::NetworkReply>;
 using NetworkChange = Question<exchange::NetworkEdit, exchange::NetworkReply>;
 
-// Looks at the desk's own state, in its thread.
+// This reads the desk's own state, in its thread.
 class MeasureErrand final : public ErrandFor<http::MetricsText> {
  public:
   explicit MeasureErrand(FleetState& state) : state_(state) {}
@@ -186,7 +186,7 @@ class MeasureErrand final : public ErrandFor<http::MetricsText> {
   FleetState& state_;
 };
 
-// `future`: of a result; shared or not.
+// Waits for a result, by a `future` that may be shared.
 template <typename Future>
 auto Await(Future future, milliseconds timeout) {
   using Outcome = std::remove_cvref_t<decltype(future.get())>;
@@ -216,7 +216,7 @@ Result<std::vector<fleet::RobotsWord>> Desk::Tell(exchange::NowOrder order,
       order == exchange::NowOrder::kStop, options_.answer_within);
 }
 
-// Of whom nobody has heard here a server may have heard.
+// A server may have heard of a robot that this console has not.
 std::optional<Error> Desk::Unknown(const AgentId& robot) {
   auto unknown = CarryOut(std::make_shared<WhoErrand>(robot), false, milliseconds(0));
   if (!unknown || !*unknown) return std::nullopt;
@@ -241,7 +241,8 @@ Result<void> Desk::Forget(const AgentId& robot) {
       std::make_shared<LocalErrand<std::monostate>>(
           [this, robot](FleetState& state, Clock::time_point now) -> Result<std::monostate> {
             const auto forgotten = state.Forget(robot, now);
-            // Of one that was not heard since the console started there may be alerts of before.
+            // A robot that was not heard since the console started may still have alerts from
+            // before.
             const bool had_alerts = (forgotten || forgotten.error().code == ErrorCode::kNotFound) &&
                                     alerts_.End(robot.value(), NowUnixMs());
             if (!forgotten && !had_alerts) return tl::unexpected(forgotten.error());

@@ -30,7 +30,7 @@ Driving::Verdict Driving::Hear(const AgentId& robot, const Word& word, Time now)
     case DriverSeat::Verdict::kGood:
       break;
   }
-  // To the robot it is as old as it is here.
+  // The command is as old to the robot as it is here.
   const auto said = now - seat.late();
   const auto said_ms = duration_cast<milliseconds>(said.time_since_epoch()).count();
   waiting_[robot] = {.agent = robot,

@@ -45,7 +45,7 @@ void FleetState::Measure(http::MetricsText& text) const {
   text.Begin("robots", kGauge, "Robots that were heard, by what they do.");
   for (const char* state : fleet::kRobotStates) text.Add(in_state[state], {{"state", state}});
 
-  // Of each robot of which it is known.
+  // This is for each robot of which the value is known.
   const auto each = [&](const char* name, const char* help, const auto& add) {
     text.Begin(name, kGauge, help);
     for (const auto& [robot, is] : robots) add(robot, is);

@@ -23,7 +23,7 @@ using fleet::RobotState;
 using program::Json;
 using program::Rounded;
 
-// What an operator's word would change.
+// Returns the orders that would change something.
 Json OrdersFor(RobotState state, const AgentStatus& status, bool has_mission, bool open_stop,
                const std::vector<mission::Record>& queue) {
   Json orders = Json::array();
@@ -45,7 +45,7 @@ Json OrdersFor(RobotState state, const AgentStatus& status, bool has_mission, bo
   return orders;
 }
 
-// A change has the name as well, which comes first and stays.
+// A change always has the name, too, which comes first and never changes.
 Json Changed(const Json& from, const Json& to) {
   Json changed = Json::object();
   for (const auto& [name, value] : to.items()) {
@@ -137,7 +137,7 @@ void FleetState::KeepTelling(const AgentId& robot, const exchange::NowCommand& s
   if (agent->released_at && *agent->released_at >= told_at) return;
   const std::int64_t since = agent->open_stop ? agent->open_stop->since_unix_ms : unix_ms;
   agent->open_stop = {.command = stop, .since_unix_ms = since};
-  // Others have answered what they were all told.
+  // The command may have been for several robots, of which the others have answered.
   agent->open_stop->command.whom = mission::NowWhom::kRobot;
   agent->open_stop->command.name = robot.value();
 }
@@ -160,7 +160,7 @@ std::vector<exchange::NowCommand> FleetState::TakeOpenStops(Time now) {
 }
 
 void FleetState::On(const mission::Report& report, std::int64_t unix_ms) {
-  if (report.state == mission::State::kPutOff) return;  // nothing has become of it
+  if (report.state == mission::State::kPutOff) return;  // it has no outcome yet
   const MissionName name{report.agent, report.mission};
   mission::Record* known = missions_.Find(name);
   const bool is_new = known == nullptr;
@@ -184,7 +184,7 @@ void FleetState::On(const exchange::MissionReply& reply) {
   if (!reply.error.empty()) return;
   lacks_orders_ = false;
   if (reply.request == asked_for_missions_) missions_told_ = true;
-  // The newest first, and the newest is to stay longest.
+  // The reply has the newest first. They are taken in reverse, so that the newest stays longest.
   for (auto record = reply.missions.rbegin(); record != reply.missions.rend(); ++record) {
     const MissionName name{record->mission.agent, record->mission.id};
     const bool is_new = missions_.Find(name) == nullptr;
@@ -193,7 +193,7 @@ void FleetState::On(const exchange::MissionReply& reply) {
     const std::int64_t changed_unix_ms = known.changed_unix_ms;
     known = *record;
     if (heard.change <= record->last.change) {
-      // What was over before this console looked is history.
+      // Missions that ended before this console looked do not count.
       if (!is_new && heard.state != record->last.state) ++became_[record->last.state];
       continue;
     }
@@ -272,7 +272,7 @@ std::vector<RouteId> FleetState::TakeLackingRoutes(Time now) {
   std::vector<RouteId> lacking;
   for (auto& [key, route] : routes_) {
     if (lacking.size() >= kMostAskedFor) break;
-    // One that is still being taught becomes longer.
+    // A route that is still being taught becomes longer, so it is asked for again.
     if (route.info && route.info->state == route::RouteState::kComplete) continue;
     if (route.asked_at && now < *route.asked_at + kAskForRouteEvery) continue;
     route.asked_at = now;
@@ -281,7 +281,8 @@ std::vector<RouteId> FleetState::TakeLackingRoutes(Time now) {
   return lacking;
 }
 
-// What each robot does, or did last; of what it has refused or has not heard of it does nothing.
+// Returns each robot's present or last mission. A mission that the robot has refused or not heard
+// of does not count.
 FleetState::Latest FleetState::LatestMissions() const {
   Latest latest;
   for (const auto& [name, record] : missions_) {
@@ -299,7 +300,7 @@ FleetState::Standing FleetState::StandingOf(const Agent& agent, const mission::R
   standing.last = latest == nullptr ? nullptr : &latest->last;
   standing.state = fleet::RobotStateOf(agent.status, agent.silent, standing.last);
   const bool failed = standing.last != nullptr && standing.last->state == mission::State::kFailed;
-  // By itself it does not go on.
+  // Such a robot does not go on by itself.
   const bool held = standing.state == RobotState::kOffline ||
                     standing.state == RobotState::kPaused || standing.state == RobotState::kStopped;
   standing.needs_person = failed || agent.open_stop.has_value() ||
@@ -348,7 +349,7 @@ Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest,
     robot["along_m"] = Rounded(status.place->along_m, 100.0);
     if (status.place->left_sigma_m > 0.0) {
       robot["left_m"] = Rounded(status.place->left_m, 100.0);
-      // Never 0, which is how robots say that they do not know.
+      // It is never 0, by which robots say that they do not know.
       robot["left_sigma_m"] = std::max(0.01, Rounded(status.place->left_sigma_m, 100.0));
     }
     const auto route = routes_.find(status.place->key);

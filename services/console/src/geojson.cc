@@ -12,10 +12,11 @@ namespace {
 using program::Json;
 using program::Rounded;
 
-// The metres in a degree of latitude at the Earth's mean radius, which is enough for a site.
+// A degree of latitude has this many metres at the Earth's mean radius, which is accurate enough
+// for a site.
 constexpr double kMetresADegree = 111'195.0;
-constexpr double kLeastCosine = 1e-3;  // beside a pole
-constexpr double kCentimetres = 1e7;   // of a degree
+constexpr double kLeastCosine = 1e-3;  // at a pole
+constexpr double kCentimetres = 1e7;   // decimals of a degree that are centimetres
 
 }  // namespace
 

@@ -9,7 +9,7 @@
 
 namespace trailcast::console {
 
-// Does what Guarded does, and tells the console's log of a fault of the program as well.
+// Does what Guarded does, and also writes a fault of the program to the console's log.
 template <typename Body>
 [[nodiscard]] auto GuardedInLog(std::string_view thread, Body&& body) {
   auto done = Guarded(thread, std::forward<Body>(body));

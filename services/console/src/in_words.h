@@ -7,7 +7,7 @@
 
 namespace trailcast::console {
 
-// What people are told has the file's own name, and no other of this machine.
+// Replaces the path of a file by its own name, so that messages tell no other name of this machine.
 [[nodiscard]] inline Error InWords(Error error, const std::filesystem::path& path,
                                    const std::string& name) {
   const std::string known = path.string();

@@ -15,7 +15,7 @@ namespace {
 
 using network::Edit;
 
-// Without what tells revisions apart: "hall" of "hall@2".
+// Returns a route without its revision: "hall" for "hall@2".
 std::string WithoutRevision(const std::string& route) { return route.substr(0, route.rfind('@')); }
 
 std::string Lower(std::string text) {
@@ -113,7 +113,7 @@ std::vector<std::size_t> NetworkList::Around(const std::string& route) const {
   return found;
 }
 
-// It and those that it meets.
+// Returns the route and those that it meets.
 std::vector<std::size_t> NetworkList::WithMet(const std::string& route) const {
   const auto at = numbers_.find(route);
   if (at == numbers_.end()) return {};

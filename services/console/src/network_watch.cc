@@ -7,7 +7,7 @@
 namespace trailcast::console {
 namespace {
 
-// A server may go on for ever.
+// These limit a server's answer, which may never end.
 constexpr std::size_t kMostLines = 200'000;
 constexpr std::chrono::seconds kLongest{30};
 

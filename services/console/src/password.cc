@@ -9,7 +9,7 @@
 namespace trailcast::console {
 namespace {
 
-// A terminal that does not show what is typed.
+// This is a terminal that does not show what is typed.
 class Unseen {
  public:
   Unseen() : is_terminal_(tcgetattr(STDIN_FILENO, &shown_) == 0) {

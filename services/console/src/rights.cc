@@ -9,7 +9,7 @@ using users::Role;
 
 struct Row {
   std::string_view method;
-  std::string_view path;  // a '*' is one part of it
+  std::string_view path;  // a '*' stands for one part
   std::optional<Role> needs;
 };
 

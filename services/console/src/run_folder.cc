@@ -66,7 +66,7 @@ Result<std::vector<RunFile>> RunFolder::Scan() const {
   return files;
 }
 
-// Part by part: none of them may have become a link meanwhile.
+// Opens the path part by part, because none of its parts may be a link by now.
 Result<OpenFile> RunFolder::Open(const RunFile& file) const {
   const auto gone = [] { return Fail(ErrorCode::kNotFound, "this log is there no more"); };
   int at = ::open(folder_.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);

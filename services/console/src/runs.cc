@@ -22,7 +22,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr seconds kScanAgain{2};
-// A run that is under way has another log each second.
+// The log of a run that is under way changes every second.
 constexpr seconds kReadAgain{10};
 constexpr std::int64_t kStillWritten_ms = 15'000;
 constexpr std::size_t kMostOpened = 8;
@@ -94,8 +94,8 @@ void Runs::Close() {
 }
 
 void Runs::Run() {
-  // A person waits for it, so that it keeps a tenth of what another thread that takes all it can
-  // get has.
+  // A person waits for this thread, so it keeps a tenth of what a busy thread of another program
+  // gets.
   constexpr int kATenth = 10;
   GiveWay(kATenth);
   std::unique_lock lock(mutex_);
@@ -143,7 +143,7 @@ void Runs::Scan(std::unique_lock<std::mutex>& lock) {
   entries_ = std::move(entries);
 }
 
-// What changes all the time is looked at anew when it has come to rest.
+// A file that changes all the time is read again when it has come to rest.
 std::string Runs::NextToLookAt() const {
   for (const std::string& id : order_) {
     const Entry& entry = entries_.at(id);
@@ -170,7 +170,7 @@ void Runs::LookAt(std::unique_lock<std::mutex>& lock, const std::string& id) {
       looked ? *std::move(looked) : RunSummary{.reason = looked.error().message};
 }
 
-// An uploaded one may have made room for others meanwhile.
+// An upload may have been dropped for others meanwhile.
 Result<OpenFile> Runs::OpenLog(const Kept& kept) const {
   if (kept.path.empty()) return folder_->Open(kept.file);
   const int descriptor = ::open(kept.path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -198,7 +198,7 @@ Result<std::shared_ptr<const OpenedRun>> Runs::Open(const Kept& kept) const {
   auto log = agent::ReadRunLog(
       opened->path(), {.messages = kMostRows, .events = kMostEvents, .bytes = kMostLogBytes});
   if (!log) return tl::unexpected(InWords(log.error(), opened->path(), kept.file.name));
-  // A log without them is one all the same.
+  // A log without pictures is still a log.
   auto pictures = agent::RunPictures::Open(opened->path());
   return std::make_shared<const OpenedRun>(kept.file, *std::move(log),
                                            pictures ? *std::move(pictures) : nullptr);
@@ -225,7 +225,7 @@ std::optional<Runs::Kept> Runs::FileOf(const std::string& id) const {
   return entry == entries_.end() ? std::nullopt : std::optional(Kept{entry->second.file});
 }
 
-// Null: it is not read, or has grown meanwhile.
+// Returns null if it is not read, or has grown meanwhile.
 const Runs::Opened* Runs::Held(const RunFile& file) {
   const auto found = std::find_if(opened_.begin(), opened_.end(),
                                   [&](const Opened& each) { return each.file.id == file.id; });

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kStep_m = 0.05;
 constexpr double kStep_rad = 0.05;
-constexpr double kMostSteps = 256.0;  // of a segment
-// What is shorter looks much the same at both ends, and so does a corridor that is driven straight.
+constexpr double kMostSteps = 256.0;  // in a segment
+// A shorter route looks much the same at both ends, and so does a straight corridor.
 constexpr double kShortestLoop_m = 5.0;
 constexpr double kWidestGap = 0.5;  // of the loop's length
 
@@ -96,7 +96,7 @@ void ShapeMaker::Drive(const route::Segment& segment) {
                  1.0, kMostSteps);
   const double step_m = length_m / steps;
   const double way_m = segment.reverse ? -step_m : step_m;
-  // The polynomial is fitted: where it ends the heading is to be what was measured.
+  // The polynomial is a fit. Its error is spread so that the heading ends as measured.
   const double missed_rad =
       segment.heading_change_rad - route::HeadingAt(segment.heading, length_m);
   for (double step = 0.0; step < steps; ++step) {
@@ -144,7 +144,7 @@ std::vector<ShapePoint> Close(std::vector<ShapePoint> points, double turn_rad) {
   if (points.empty() || points.back().along <= points.front().along) return points;
   const double begin = points.front().along;
   const double length = points.back().along - begin;
-  // First each step is turned back by its share, then shifted.
+  // Each step is first turned back by its share, and then shifted.
   ShapePoint before = points.front();
   for (std::size_t i = 1; i < points.size(); ++i) {
     const double middle = 0.5 * (before.along + points[i].along);

@@ -28,7 +28,7 @@ struct PlanFile {
   const char* type;
   std::string_view begins;
 };
-// Pictures alone: a drawing from a stranger may be a program.
+// Only pixel pictures are accepted, because a drawing (SVG) from a stranger may be a program.
 constexpr PlanFile kPlanFiles[] = {{"plan.png", "image/png", "\x89PNG\r\n\x1a\n"},
                                    {"plan.jpg", "image/jpeg", "\xff\xd8\xff"}};
 
@@ -70,7 +70,7 @@ Json ValueOf(const Placements& placements) {
   return json;
 }
 
-// Nothing: there is no such file.
+// Returns nothing if there is no such file.
 Result<std::optional<std::string>> Contents(const fs::path& file, std::size_t most_bytes) {
   std::error_code error;
   if (!fs::exists(file, error)) return std::nullopt;

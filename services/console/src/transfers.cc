@@ -28,7 +28,7 @@ Transfers::~Transfers() {
   }
 }
 
-// Those that are over make room, the oldest first.
+// Removes transfers that have ended, the oldest first.
 Result<Transfers::Job*> Transfers::MakeRoom() {
   if (!folder_) return tl::unexpected(folder_.error());
   const auto under_way = std::count_if(jobs_.begin(), jobs_.end(), [](const auto& job) {
@@ -55,7 +55,7 @@ Result<Transfers::Job*> Transfers::MakeRoom() {
   return (jobs_[job->progress.id] = std::move(job)).get();
 }
 
-// With the lock held.
+// Callers hold the lock.
 void Transfers::Start(Job& job, Work work) try {
   job.thread = std::thread([this, &job, work = std::move(work)] {
     fleet::TransferWatch watch;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -21,9 +20,6 @@ using test::Document;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::StartsWith;
-
-// The comments of these rooms are still to be read.
-const std::set<std::string> kRoomsNotReadYet{"services/console"};
 
 // Where the comment of a line begins, behind its slashes: at its beginning, or two blanks after the
 // code. A string may hold slashes, too.
@@ -67,7 +63,6 @@ std::vector<Document> ReadComments() {
     if (!lines.empty()) documents.push_back(CommentsIn(path, std::exchange(lines, {})));
   };
   for (const SourceLine& line : ReadSources()) {
-    if (kRoomsNotReadYet.contains(line.room)) continue;
     std::string of = line.where.substr(0, line.where.rfind(':'));
     if (of != path) end_file();
     path = std::move(of);

@@ -6,7 +6,7 @@
 
 namespace trailcast::console {
 
-// Serves openapi.yaml's /api/alerts: what somebody has to see to, and has had to.
+// Serves openapi.yaml's /api/alerts: what people have to see to, and had to.
 void ServeAlerts(http::Server& server, Desk& desk, const Access& access);
 
 }  // namespace trailcast::console

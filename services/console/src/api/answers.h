@@ -9,7 +9,7 @@ namespace trailcast::console {
 
 void Answer(httplib::Response& response, int status, const std::string& json);
 void Refuse(httplib::Response& response, int status, const std::string& why);
-// By what kind of error it is.
+// Refuses with the status for the kind of error.
 void Refuse(httplib::Response& response, const Error& error);
 
 }  // namespace trailcast::console

@@ -5,7 +5,7 @@
 
 namespace trailcast::console {
 
-// openapi.yaml's /api/robots/{robot}/drive. `desk` outlives the server.
+// Serves openapi.yaml's /api/robots/{robot}/drive. `desk` outlives the server.
 void ServeDriving(http::Server& server, Desk& desk);
 
 }  // namespace trailcast::console

@@ -12,8 +12,8 @@
 
 namespace trailcast::console {
 
-// Something that is asked of others: said again and again until it is over. All but the future
-// belongs to the desk's thread.
+// This is something that is asked of others repeatedly until it is over. All but the future belongs
+// to the desk's thread.
 class Errand {
  public:
   Errand() = default;
@@ -26,22 +26,23 @@ class Errand {
     return std::chrono::milliseconds(200);
   }
   virtual void Hear(const exchange::Message& message) = 0;
-  // Before its first words, and after its last: what the desk knows of the fleet.
+  // The desk calls these before its first messages and after its last, with what it knows of the
+  // fleet.
   virtual void Begin(FleetState& /*state*/, std::chrono::steady_clock::time_point /*now*/) {}
   virtual void End(FleetState& /*state*/) {}
-  // It has what it was after, or waits no longer.
+  // Returns whether it has its answer, or waits no longer.
   [[nodiscard]] virtual bool IsOver(std::chrono::milliseconds since) const = 0;
   virtual void Finish() = 0;
   virtual void GiveUp(const Error& error) = 0;
 
-  // The desk's notes.
+  // These are the desk's notes.
   using Time = std::chrono::steady_clock::time_point;
   Time began{};
   Time say_at{};
-  bool counts = false;  // among those of which only so many are under way
+  bool counts = false;  // counts towards the limit of those under way
 };
 
-// One that brings back a `Reply`.
+// This is an errand that returns a `Reply`.
 template <typename Reply>
 class ErrandFor : public Errand {
  public:

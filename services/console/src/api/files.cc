@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-// What the build puts into TRAILCAST_PAGE_DIR, byte for byte.
+// This embeds what the build puts into TRAILCAST_PAGE_DIR, byte for byte.
 #define TRAILCAST_EMBED(name, file)            \
   asm(".pushsection .rodata\n"                 \
       ".global trailcast_" #name               \
@@ -34,7 +34,7 @@ TRAILCAST_EMBED(openapi_gz, "openapi.yaml.gz");
 namespace trailcast::console {
 namespace {
 
-// FNV-1a.
+// Returns the FNV-1a hash, in quotes.
 std::string TagOf(std::string_view bytes) {
   std::uint64_t hash = 14695981039346656037U;
   for (const char byte : bytes) {
@@ -47,7 +47,7 @@ std::string_view Between(const char* begin, const char* end) {
   return {begin, static_cast<std::size_t>(end - begin)};
 }
 
-// `packed`: the same by gzip; empty where that is hardly shorter.
+// `packed` is the same by gzip. It is empty if that is hardly shorter.
 File MakeFile(const char* path, const char* type, std::string_view bytes,
               std::string_view packed = {}) {
   return {path, type, bytes, packed, TagOf(bytes)};

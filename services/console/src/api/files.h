@@ -6,13 +6,13 @@
 
 namespace trailcast::console {
 
-// A file of the page, in this program.
+// This is a file of the page, embedded in this program.
 struct File {
-  const char* path;  // as it is asked for
+  const char* path;  // the path of its requests
   const char* type;
   std::string_view bytes;
-  std::string_view packed{};  // by gzip; empty: it is not
-  std::string tag;            // other bytes have another; in quotes, as HTTP has it
+  std::string_view packed{};  // by gzip; empty if it is not packed
+  std::string tag;            // differs for other bytes; in quotes, as HTTP has it
 };
 [[nodiscard]] std::span<const File> Files();
 

@@ -12,7 +12,7 @@ namespace {
 using httplib::Request;
 using httplib::Response;
 
-// What a robot says is to go into a header.
+// Makes a robot's text fit for a header.
 std::string Printable(std::string text) {
   for (char& c : text) {
     if (c < ' ' || c > '~') c = '?';

@@ -5,8 +5,8 @@
 
 namespace trailcast::console {
 
-// What openapi.yaml has at /api/robots/{robot}/glance. Of those who wait for a picture no more are
-// let in, since each takes a thread. `desk` outlives the server.
+// Serves camera snapshots, `/api/robots/{robot}/glance` of openapi.yaml. No more requests than
+// kMostLookers wait for a picture, because each takes a thread. `desk` outlives the server.
 inline constexpr int kMostLookers = 16;
 void ServeGlances(http::Server& server, Desk& desk);
 

@@ -24,7 +24,7 @@ using httplib::Request;
 using httplib::Response;
 using program::OneLine;
 
-// A server answers with 100 at a time.
+// A server answers with 100 at a time, so this limits an answer's cost.
 constexpr std::size_t kMostInFigures = 5000;
 
 void Missions(Desk& desk, const Request& request, Response& response) {
@@ -112,7 +112,7 @@ void Figures(Desk& desk, const Request& request, Response& response) {
   Answer(response, 200, OneLine({{"figures", fleet::FiguresJson(figures)}}));
 }
 
-// Of routes and of how they are joined.
+// Answers with changes of routes and of how they are joined.
 void Changes(Desk& desk, const Request& request, Response& response) {
   const auto query = ReadChangesQuery(request.params, NowUnixMs());
   if (!query) return Refuse(response, query.error());

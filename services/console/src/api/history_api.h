@@ -5,7 +5,8 @@
 
 namespace trailcast::console {
 
-// GET /api/missions, GET /api/commands and GET /api/changes. `desk` outlives the server.
+// Serves GET /api/missions, GET /api/figures, GET /api/commands and GET /api/changes. `desk`
+// outlives the server.
 void ServeHistory(http::Server& server, Desk& desk);
 
 }  // namespace trailcast::console

@@ -9,10 +9,10 @@
 
 namespace trailcast::console {
 
-// Writes a request's body into a file piece by piece: it may be larger than what this program may
-// have of memory. Throws nothing, so that whoever holds a place for the file can give it back.
-// Errors call the file what `called` says: kInvalidArgument when it did not come whole,
-// kUnavailable when there is no room for it.
+// Writes a request's body into a file piece by piece, because it may be larger than this program's
+// memory. It throws nothing, so that a caller that holds a place for the file can give it back.
+// Errors call the file `called`: kInvalidArgument when it did not arrive whole, and kUnavailable
+// when there is no room for it.
 [[nodiscard]] Result<void> ReceiveInto(const std::filesystem::path& path, const std::string& called,
                                        Desk& desk, const httplib::ContentReader& read);
 

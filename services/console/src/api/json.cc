@@ -36,7 +36,7 @@ Result<Json> ReadObject(const std::string& body, const std::set<std::string>& fi
   return json;
 }
 
-// Empty where it is absent.
+// Returns an empty text if the field is absent.
 Result<std::string> LineIn(const Json& json, const char* field) {
   if (!json.contains(field)) return std::string();
   const Json& value = json[field];

@@ -8,10 +8,10 @@
 
 namespace trailcast::console {
 
-// One picture of what a robot's camera sees; null: the robot did not answer.
+// This gets one picture of what a robot's camera sees, or null if the robot did not answer.
 class LookErrand final : public ErrandFor<std::shared_ptr<const exchange::Glance>> {
  public:
-  // As the exchange's rules have it, who asks twice waits a second in between.
+  // By the exchange's rules, a repeated request waits for a second.
   static constexpr std::chrono::milliseconds kAskAgain{1000};
   static constexpr std::chrono::milliseconds kTimeout{2000};
 

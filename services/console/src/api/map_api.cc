@@ -19,7 +19,7 @@ namespace {
 using httplib::Request;
 using httplib::Response;
 
-// Then whoever asks is told how far it is, and asks again.
+// After this, the caller is told how far the fetching is, and asks again.
 constexpr std::chrono::milliseconds kLook{2000};
 constexpr const char* kId = "([0-9a-f]{32})";
 

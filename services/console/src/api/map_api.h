@@ -6,8 +6,8 @@
 
 namespace trailcast::console {
 
-// What openapi.yaml has of routes' shapes and of the site. Both outlive the server; `site` may be
-// null.
+// Serves what openapi.yaml has of routes' shapes and of the site. Both outlive the server, and
+// `site` may be null.
 void ServeMap(http::Server& server, Atlas& atlas, Site* site);
 
 }  // namespace trailcast::console

@@ -38,7 +38,7 @@ void Change(Desk& desk, NetworkWatch& watch, const std::string& who, const Reque
   const auto words = ReadNetworkEdit(request.body);
   if (!words) return Refuse(response, words.error());
   const auto reply = desk.Join(*words);
-  watch.Changed();  // an answer may have been lost
+  watch.Changed();  // the answer to an edit that was made may be lost
   if (!reply) return Refuse(response, reply.error());
   spdlog::info("console: {}{}{}", who, who.empty() ? "" : ": ", *words);
   Answer(response, 200, OneLine({{"now", reply->lines}}));

@@ -7,7 +7,7 @@
 
 namespace trailcast::console {
 
-// What openapi.yaml has below /api/network. All of them outlive the server.
+// Serves what openapi.yaml has below /api/network. All arguments outlive the server.
 void ServeNetwork(http::Server& server, Desk& desk, NetworkWatch& watch, const Access& access);
 
 }  // namespace trailcast::console

@@ -27,7 +27,7 @@ constexpr std::uint32_t kMostChanges = 5000;
 constexpr double kWithin_m = 50.0;
 constexpr std::size_t kMostNameBytes = 128;
 
-// How a parameter that was given is read into a query.
+// These read each parameter that was given into a query.
 template <typename Query>
 using Readers = std::map<std::string, std::function<Result<void>(const std::string&, Query&)>>;
 
@@ -59,7 +59,7 @@ auto NameInto(std::string Query::*field) {
   };
 }
 
-// A name as a log has it, which may be anybody's.
+// Reads a name as a log has it, which may be any text.
 template <typename Query>
 auto LoggedNameInto(std::string Query::*field) {
   return [field](const std::string& text, Query& query) -> Result<void> {
@@ -81,12 +81,12 @@ auto LimitInto(std::uint32_t Query::*field, std::uint32_t most) {
   };
 }
 
-// Those of `several` may be given more than once.
+// Reads parameters. The one named `several` may be given more than once.
 template <typename Query>
 Result<void> ReadParameters(const Parameters& parameters, const Readers<Query>& readers,
                             const std::string& several, Query& query) {
   for (const auto& [name, text] : parameters) {
-    if (text.empty()) continue;  // as a form sends what nobody filled in
+    if (text.empty()) continue;  // a form sends this for an empty field
     const auto known = readers.find(name);
     if (known == readers.end()) {
       return Fail(ErrorCode::kInvalidArgument, "there is no parameter '{}'", PlainText(name, 64));
@@ -131,7 +131,7 @@ Result<void> ReadSort(const std::string& text, route::RouteQuery& query) {
   return {};
 }
 
-// With how near that is.
+// This query has the radius, too.
 struct PagedQuery : route::RouteQuery {
   double within_m = kWithin_m;
 };

@@ -33,7 +33,8 @@ Json CellsValue(const std::vector<ShapeCell>& cells) {
           {"slope_rad", std::move(slope_rad)}};
 }
 
-// How much of the way is how rough, and how steep it gets; null where nobody felt it.
+// Returns how much of the path has which roughness, and its steepest slopes. Values that were not
+// measured are null.
 Json TerrainValue(const RouteShape& shape) {
   Json rough = Json::object();
   std::optional<double> up_rad;

@@ -39,7 +39,7 @@ using httplib::Request;
 using httplib::Response;
 using program::OneLine;
 
-// How soon a stream notices that its page is gone.
+// A stream notices within this time that its page is gone.
 constexpr std::chrono::milliseconds kNotices{1000};
 constexpr std::size_t kMostBody = 64U << 10U;
 
@@ -47,12 +47,14 @@ constexpr std::array kOrders{NowOrder::kPause, NowOrder::kResume,  NowOrder::kCa
                              NowOrder::kStop,  NowOrder::kRelease, NowOrder::kEnd,
                              NowOrder::kHome};
 
-// What a robot stands after is obeyed whatever it comes with; what it may drive after is not.
+// Orders after which a robot stands are obeyed with any body; orders after which it may drive are
+// not.
 bool MakesStand(NowOrder order) {
   return order != NowOrder::kResume && order != NowOrder::kRelease && order != NowOrder::kHome;
 }
 
-// A robot that nobody has ever heard may be there all the same, and was told: it did not answer.
+// A robot that was never heard may be there all the same, and was commanded, so it counts as one
+// that did not answer.
 int StatusOf(const std::vector<fleet::RobotsWord>& words) {
   switch (fleet::ObeyedBy(words)) {
     case fleet::Obeyed::kByAll:
@@ -65,7 +67,7 @@ int StatusOf(const std::vector<fleet::RobotsWord>& words) {
   return 504;
 }
 
-// Robots and servers know the console alone, and who it is of its users from this.
+// Robots and servers know only the console. This tells them which of its users commands.
 std::string ReasonOf(const users::Who& who, const std::string& reason) {
   if (who.name.empty()) return reason;
   return PlainText(reason.empty() ? who.name : who.name + ": " + reason, exchange::kMaxLineBytes);
@@ -74,9 +76,9 @@ std::string IdFor(const users::Who& who) {
   return who.name.empty() ? fleet::DrawMissionId() : who.name + "-" + fleet::DrawMissionId();
 }
 
-// A thread for each stream, for each errand that waits for its answer, and for each who waits
-// for a picture; stops have enough left. Where strangers come, too, one address has enough for a
-// room of people, and leaves more.
+// Each stream, each errand that waits for its answer, and each request that waits for a picture
+// takes a thread, and stops have enough left. If strangers can reach the console, one address has
+// enough threads for a room of people, and leaves more for others.
 http::Limits LimitsFor(const Access& access) {
   constexpr std::size_t kOwn = Web::kMostStreams + Desk::kMostErrands + kMostLookers +
                                Runs::kMostWaiting + NetworkWatch::kMostWaiting + 16;
@@ -84,7 +86,7 @@ http::Limits LimitsFor(const Access& access) {
   return {.threads = kOwn + 64, .body_bytes = kMostBody, .of_one_address = 24};
 }
 
-// A path that is there for something else.
+// Refuses a method that a known path does not take.
 std::optional<http::Refusal> JudgeMethod(const Request& request) {
   const std::string methods = MethodsOf(request.path);
   const std::string method = request.method == "HEAD" ? "GET" : request.method;
@@ -92,7 +94,7 @@ std::optional<http::Refusal> JudgeMethod(const Request& request) {
   return http::Refusal{405, fmt::format("{} takes {}, not {}", request.path, methods, method)};
 }
 
-// Says why the server refused a request that no handler has seen.
+// Returns why the server refused a request that no handler has seen.
 const char* WhyRefused(int status) {
   switch (status) {
     case 400:
@@ -167,7 +169,7 @@ Result<std::unique_ptr<Web>> Web::Open(Desk& desk, Atlas& atlas, Site* site,
   web->door_.any_name = asks && web->door_.names.empty();
   if (tls) web->server_.Speak(*tls);
   web->access_.At(port);
-  // Nobody knows a port yet that the system chooses.
+  // A port that the system chooses is known only after this.
   if (auto listens = web->server_.Listen(host, port); !listens) {
     return tl::unexpected(listens.error());
   }
@@ -192,7 +194,7 @@ void Web::ServeFiles() {
           !file.packed.empty() &&
           request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
       if (packed) response.set_header("Content-Encoding", "gzip");
-      // Not by set_content, which compresses anew for each.
+      // set_content would compress the bytes anew for each request.
       const std::string_view bytes = packed ? file.packed : file.bytes;
       response.set_content_provider(
           bytes.size(), file.type,
@@ -214,7 +216,7 @@ void Web::ServeState() {
 }
 
 void Web::Stream(const Request& request, Response& response) {
-  // Counted until the last copy of what writes the stream is gone.
+  // The stream counts until the last copy of its writer is gone.
   const std::shared_ptr<void> seat(nullptr, [this](void*) { --streams_; });
   if (++streams_ > kMostStreams) {
     ++streams_refused_;
@@ -239,7 +241,8 @@ void Web::Stream(const Request& request, Response& response) {
         } else if (news) {
           text = fmt::format("event: state\ndata: {}\n\n", StateBody(*news->state, NowUnixMs()));
         } else if (std::chrono::steady_clock::now() >= told.at + kAliveEvery) {
-          // Not a comment: of those a page is not told, and it is to notice that nothing comes.
+          // This is an event and no comment, because a page is not told of comments, and must
+          // notice when nothing comes.
           text = fmt::format("event: alive\ndata: {}\n\n", OneLine({{"now_unix_ms", NowUnixMs()}}));
         } else {
           return true;

@@ -7,7 +7,7 @@
 
 namespace trailcast::console {
 
-// What a word stands for; kInvalidArgument with all that there are.
+// Returns what a word stands for. Fails with kInvalidArgument, which lists all words.
 template <typename Value>
 [[nodiscard]] Result<Value> ReadWord(const std::map<std::string, Value>& words,
                                      const std::string& text) {

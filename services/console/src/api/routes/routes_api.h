@@ -5,7 +5,7 @@
 
 namespace trailcast::console {
 
-// What openapi.yaml has below /api/routes. `desk` outlives the server.
+// Serves what openapi.yaml has below /api/routes. `desk` outlives the server.
 void ServeRoutes(http::Server& server, Desk& desk);
 
 }  // namespace trailcast::console

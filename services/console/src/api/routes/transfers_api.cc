@@ -35,7 +35,7 @@ std::string ProgressBody(const Transfers::Progress& progress) {
                            {"detail", progress.detail}});
 }
 
-// The teaching of a route, by its id, that a server has whole.
+// Returns the teaching of a route, by its id, that a server has whole.
 Result<route::RouteInfo> Find(Desk& desk, const route::RouteKey& key) {
   route::RouteQuery query;
   query.name = key.route.value();

@@ -6,7 +6,7 @@
 
 namespace trailcast::console {
 
-// What openapi.yaml has below /api/transfers. `desk` and `transfers` outlive the server.
+// Serves what openapi.yaml has below /api/transfers. `desk` and `transfers` outlive the server.
 void ServeTransfers(http::Server& server, Desk& desk, Transfers& transfers);
 
 }  // namespace trailcast::console

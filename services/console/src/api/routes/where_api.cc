@@ -24,7 +24,8 @@ constexpr std::size_t kMostBytes = 4U << 20U;
 constexpr std::uint64_t kMostPixels = 6'000'000;
 constexpr std::chrono::milliseconds kWherePatience{30'000};
 
-// Bodies are read a few at a time, and decoded one at a time: that takes ten times the memory.
+// Bodies are read a few at a time, and decoded one at a time, because decoding takes ten times the
+// memory.
 constexpr int kMostAtOnce = 3;
 struct Turns {
   std::atomic<int> taken{0};

@@ -5,7 +5,7 @@
 
 namespace trailcast::console {
 
-// POST /api/where: a picture, which may be anybody's. `desk` outlives the server.
+// Serves POST /api/where with a picture, which may be anybody's. `desk` outlives the server.
 void ServeWhere(http::Server& server, Desk& desk);
 
 }  // namespace trailcast::console

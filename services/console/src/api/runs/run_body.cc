@@ -25,7 +25,7 @@ constexpr std::size_t kMostMarks = 300;
 constexpr double kLeastDriven_m = 0.2;
 constexpr double kStands_s = 1.0;
 
-// Tenths of a millimetre, or of a pixel, are enough.
+// A ten-thousandth of a metre, or of a pixel, is enough.
 Json Number(std::optional<double> value) { return program::RoundedOrNull(value, 1e4); }
 
 Json SummaryJson(const RunFile& file, const RunSummary& summary, bool is_written) {
@@ -47,7 +47,8 @@ Json SummaryJson(const RunFile& file, const RunSummary& summary, bool is_written
           {"under_way", is_written}};
 }
 
-// How sure it was: 0 lost, 1 sees nothing to go by, 2 unsure, 3 sure; 4: it had nothing to do yet.
+// Returns how sure the robot was: 0 lost, 1 without visual evidence, 2 unsure, 3 sure, 4 without a
+// task yet.
 int SurenessOf(Phase phase) {
   switch (phase) {
     case Phase::kLost:
@@ -69,7 +70,7 @@ int SurenessOf(Phase phase) {
   return 4;
 }
 
-// Where a row is along the strip, or when.
+// This is where a row is along the strip, in metres or in time.
 class Along {
  public:
   Along(const RunLog& log, RunAxis axis) : log_(log) {
@@ -90,7 +91,7 @@ class Along {
   double length_ = 0.0;
 };
 
-// Of a cell the least sure row, and the place that is the furthest from the path.
+// Returns for each cell its least sure row, and its place that is furthest from the path.
 Json CellsJson(const RunLog& log, const Along& along) {
   Json at = Json::array();
   Json rows = Json::array();
@@ -160,7 +161,7 @@ void AddStands(const RunLog& log, std::vector<Mark>& marks) {
   }
 }
 
-// What is told of hand-overs may be left out, where there is more.
+// Marks of hand-overs are left out if there are too many marks.
 Json MarksJson(const RunLog& log, const Along& along) {
   std::vector<Mark> marks;
   AddEvents(log, false, marks);
@@ -262,7 +263,7 @@ std::string RunSeenBody(const OpenedRun& run, std::size_t row, const OpenedRun::
     features.push_back({Number(each.u_px), Number(each.v_px), Number(each.to_u_px),
                         Number(each.to_v_px), WordOf(each.verdict)});
   }
-  // The picture is that of an earlier row, perhaps.
+  // The picture may be from an earlier row.
   Json picture;
   Json age;
   if (seen.picture) {

@@ -7,10 +7,10 @@
 
 namespace trailcast::console {
 
-// openapi.yaml's Runs, Run, RunFrames and RunSeen.
+// These return openapi.yaml's Runs, Run, RunFrames and RunSeen.
 [[nodiscard]] std::string RunsBody(const Runs::Page& page);
 enum class RunAxis { kMetres, kSeconds };
-// Metres, as far as it has driven some.
+// It uses metres if the robot has driven some.
 [[nodiscard]] std::string RunBody(const OpenedRun& run, RunAxis axis);
 inline constexpr std::size_t kMostFramesAtOnce = 100;
 [[nodiscard]] std::string RunFramesBody(const OpenedRun& run, std::size_t first);

@@ -18,7 +18,7 @@ namespace {
 using httplib::Request;
 using httplib::Response;
 
-// Then whoever asks is told that it is read, and asks again.
+// After this, the caller is told that the log is being read, and asks again.
 constexpr std::chrono::milliseconds kLook{2000};
 constexpr std::chrono::minutes kRunsPatience{10};
 constexpr const char* kRun = "/api/runs/([0-9a-f]{16})";
@@ -34,7 +34,7 @@ void List(Runs& runs, const Request& request, Response& response) {
 
 using Opened = std::shared_ptr<const OpenedRun>;
 
-// Null: the answer has been given.
+// Returns null if the answer has been given.
 Opened Find(Runs& runs, const Request& request, Response& response) {
   auto found = runs.Find(request.matches[1], kLook);
   if (!found) {
@@ -66,7 +66,7 @@ void Frames(Runs& runs, const Request& request, Response& response) {
   Answer(response, 200, RunFramesBody(*run, *first));
 }
 
-// `tell` gets the run, the row, and what is seen in it.
+// Calls `tell` with the run, the row, and what is seen in it.
 template <typename Tell>
 void Look(Runs& runs, const Request& request, Response& response, Tell tell) {
   const Opened run = Find(runs, request, response);

@@ -6,7 +6,7 @@
 
 namespace trailcast::console {
 
-// /api/runs: the logs of runs. All of them outlive the server.
+// Serves /api/runs, the logs of runs. All arguments outlive the server.
 void ServeRuns(http::Server& server, Desk& desk, Runs& runs);
 
 }  // namespace trailcast::console
