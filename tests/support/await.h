@@ -8,11 +8,11 @@
 
 namespace trailcast::test {
 
-// How long a test waits for what has to happen. It is far beyond what a busy machine takes, so that
-// a fault alone reaches it: a test that passes never waits for it.
+// A test waits this long for what has to happen. It is far beyond what a busy machine takes, so
+// that only a fault reaches it: a test that passes never waits for it.
 inline constexpr std::chrono::seconds kLongEnough{120};
 
-// Asks every `pause` whether `condition` holds. False: it did not within `bound`.
+// Asks every `pause` whether `condition` holds. Returns false if it did not within `bound`.
 template <typename Condition>
 [[nodiscard]] bool WaitUntil(Condition condition, std::chrono::seconds bound = kLongEnough,
                              std::chrono::milliseconds pause = std::chrono::milliseconds(20)) {
@@ -24,7 +24,7 @@ template <typename Condition>
   return true;
 }
 
-// A test in which `condition` does not come to hold fails, and names `what` it waited for. The
+// Fails the test if `condition` does not come to hold, and names `what` it waited for. The
 // condition may itself wait for a moment.
 template <typename Condition>
 bool Await(Condition condition, std::string_view what) {

@@ -8,7 +8,7 @@
 
 namespace trailcast::test {
 
-// How many pixels have about this colour.
+// Returns how many pixels have about this colour.
 inline int CountNear(const image::RgbImage& picture, image::Color color) {
   int count = 0;
   for (std::size_t i = 0; i + 2 < picture.pixels.size(); i += 3) {

@@ -9,7 +9,7 @@
 
 #include "tests/support/places.h"
 
-// The repository's documents, read as Markdown as far as tests need it.
+// This reads the repository's documents as Markdown, as far as tests need it.
 namespace trailcast::test {
 
 enum class LineKind { kBlank, kHeading, kTable, kCode, kItem, kProse };
@@ -17,7 +17,7 @@ enum class LineKind { kBlank, kHeading, kTable, kCode, kItem, kProse };
 struct DocumentLine {
   int number = 0;  // from 1
   LineKind kind = LineKind::kProse;
-  std::string text;  // as it stands there; of code without its indentation
+  std::string text;  // as in the document; code is without its indentation
 };
 
 struct Document {
@@ -37,7 +37,7 @@ inline bool BeginsAnItem(const std::string& text) {
   return end != mark && end != std::string::npos && text.compare(end, 2, ". ") == 0;
 }
 
-// Fenced blocks are code, and lines that are indented by four, unless they go on with a list's
+// Fenced blocks are code, and so are lines that are indented by four, unless they continue a list's
 // item.
 inline Document ReadDocument(const std::filesystem::path& path, std::istream& in) {
   Document document{path, {}};
@@ -94,7 +94,7 @@ inline std::vector<Document> ReadDocuments() {
   return documents;
 }
 
-// `text` without what stands between backticks.
+// Returns `text` without what is between backticks.
 inline std::string WithoutCode(const std::string& text) {
   std::string without;
   bool code = false;

@@ -8,26 +8,26 @@
 
 namespace trailcast::exchange {
 
-// Shares of received messages, each in 0..1 and decided independently.
+// These are shares of received messages, each in 0..1 and decided independently.
 struct Faults {
   double drop = 0.0;
   double duplicate = 0.0;
   double delay =
       0.0;  // held back for one to `max_delay_takes` calls of Take, so later ones overtake
-  double corrupt = 0.0;  // of the pieces: one byte of it changed
+  double corrupt = 0.0;  // share of the pieces, of each of which one byte is changed
   int max_delay_takes = 4;
 };
 
-// A bad network between its owner and a real exchange, for tests: faults strike what is received,
-// so that each receiver of a multicast has its own. Deterministic for a seed.
+// This is a bad network between its owner and a real exchange, for tests. Faults strike what is
+// received, so that each receiver of a multicast has its own. It is deterministic for a seed.
 class FaultyExchange : public RouteExchange {
  public:
   FaultyExchange(std::unique_ptr<RouteExchange> inner, Faults faults, std::uint32_t seed);
 
   void set_faults(const Faults& faults) { faults_ = faults; }
-  // Out of radio range: what is published is lost without an error, nothing is received.
+  // Out of radio range, what is published is lost without an error, and nothing is received.
   void set_cut_off(bool cut_off) { cut_off_ = cut_off; }
-  // Publish fails with kUnavailable, as a writer does that is blocked by a stalled reader.
+  // Publish then fails with kUnavailable, as for a writer that is blocked by a stalled reader.
   void set_refusing(bool refusing) { refusing_ = refusing; }
 
   [[nodiscard]] Result<void> Publish(const Message& message) override;

@@ -14,8 +14,8 @@
 
 namespace trailcast::test {
 
-// The loop of a route server 'barn' on a thread of its own, until that is stopped. Bus and store
-// outlive it.
+// This is the loop of a route server 'barn' on a thread of its own, until that is stopped. Bus and
+// store outlive it.
 inline std::jthread KeepRoutes(exchange::InProcessBus& bus, store::RouteStore& store) {
   return std::jthread([&](const std::stop_token& stop) {
     using std::chrono::steady_clock;
@@ -31,7 +31,7 @@ inline std::jthread KeepRoutes(exchange::InProcessBus& bus, store::RouteStore& s
       for (const exchange::Message& message : exchange->Take(std::chrono::milliseconds(5))) {
         (*keeper)->Handle(message, steady_clock::now());
       }
-      // What is lost is asked for.
+      // A message that is lost is asked for again.
       (void)exchange::PublishAll(*exchange, (*keeper)->Tick(steady_clock::now()));
     }
   });

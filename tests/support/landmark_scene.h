@@ -10,14 +10,15 @@
 
 namespace trailcast::test {
 
-// How the ground tilts a robot. Rolled clockwise as the robot sees the world turning
-// counter-clockwise; pitched nose down.
+// This is how the ground tilts a robot. Clockwise roll makes the world turn counter-clockwise in
+// its picture; pitch is nose down.
 struct Tilt {
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
 };
 
-// Landmarks in space seen by an ideal camera on a robot in the plane: features without images.
+// These are landmarks in space, seen by an ideal camera on a robot in the plane: features without
+// images.
 class LandmarkScene {
  public:
   static constexpr double kFocal_px = 280.0;
@@ -27,7 +28,7 @@ class LandmarkScene {
   explicit LandmarkScene(std::vector<Eigen::Vector3d> landmarks)
       : landmarks_(std::move(landmarks)) {}
 
-  // Landmarks scattered on both sides of the x axis, 1 to 4 m off it.
+  // The landmarks are scattered on both sides of the x axis, 1 to 4 m off it.
   static LandmarkScene Corridor(double from_m, double to_m, int count, unsigned seed) {
     std::mt19937 random(seed);
     const auto uniform = [&](double low, double high) {
@@ -36,7 +37,7 @@ class LandmarkScene {
     std::vector<Eigen::Vector3d> landmarks;
     for (int i = 0; i < count; ++i) {
       const double side = i % 2 == 0 ? 1.0 : -1.0;
-      // One after the other: the same scene whatever the compiler.
+      // Statements in this order make the same scene with any compiler.
       const double up_m = uniform(-1.0, 1.5);
       const double beside_m = side * uniform(1.0, 4.0);
       landmarks.emplace_back(uniform(from_m, to_m), beside_m, up_m);
@@ -44,7 +45,7 @@ class LandmarkScene {
     return LandmarkScene(landmarks);
   }
 
-  // Landmarks in view from a robot at `pose_world`; id is the landmark's number.
+  // Returns the landmarks in view from a robot at `pose_world`. The id is the landmark's number.
   [[nodiscard]] std::vector<route::TrackedFeature> Look(const motion::Pose2& pose_world,
                                                         const Tilt& tilt = {},
                                                         double focal_px = kFocal_px) const {

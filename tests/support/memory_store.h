@@ -12,8 +12,8 @@
 
 namespace trailcast::test {
 
-// A RouteStore whose "disk" is memory that outlives whoever uses it, with a switch for a full disk.
-// Pieces are checked by ToyDigest.
+// This is a RouteStore whose "disk" is memory that outlives its user, with a switch for a full
+// disk. Pieces are checked by ToyDigest.
 class MemoryStore : public store::RouteStore {
  public:
   bool full = false;
@@ -147,7 +147,7 @@ class MemoryStore : public store::RouteStore {
     return Living([&](const route::RouteInfo& info) { return info.name == name; });
   }
 
-  // All in one page, by name or id only.
+  // Returns all in one page, by name or id only.
   Result<route::RoutePage> QueryRoutes(const route::RouteQuery& query) override {
     route::RoutePage page;
     page.routes = Living([&](const route::RouteInfo& info) {
@@ -177,7 +177,7 @@ class MemoryStore : public store::RouteStore {
     return unreceipted;
   }
 
-  [[nodiscard]] bool shared() const override { return true; }  // by keepers of one test
+  [[nodiscard]] bool shared() const override { return true; }  // keepers of one test share it
 
   Result<std::vector<std::string>> Verify() override { return std::vector<std::string>(); }
 
@@ -189,7 +189,7 @@ class MemoryStore : public store::RouteStore {
     return found != routes_.end() && found->second.standing == route::Standing::kDeleted;
   }
 
-  // By key.
+  // Returns routes sorted by key.
   template <typename Matches>
   [[nodiscard]] std::vector<route::RouteInfo> Living(const Matches& matches) const {
     std::vector<route::RouteInfo> infos;

@@ -20,15 +20,15 @@
 
 namespace trailcast::test {
 
-// A radio network on one machine: a bridge that is the air, and hosts on it with an interface eth0
-// each. Every host is a network namespace without a name, held by a process that dies with this
-// one, so that nothing is left behind whatever ends the test, and tests may run in parallel. The
-// air is the namespace of the thread that makes the lab; it stays there.
+// This is a radio network on one machine: a bridge is the air, and each host on it has an interface
+// eth0. Every host is a network namespace without a name, held by a process that dies with this
+// one, so that nothing is left behind however the test ends, and tests may run in parallel. The air
+// is the namespace of the thread that makes the lab, which stays there.
 class NetworkLab {
  public:
   using Words = std::vector<std::string>;
 
-  // What keeps a lab from being made here; empty if nothing does.
+  // Returns what prevents a lab here. It is empty if nothing does.
   static std::string Obstacle() {
     if (geteuid() != 0) return "networks are staged by root only";
     if (Child([] { return unshare(CLONE_NEWNET) == 0 ? 0 : 1; }) != 0) {
@@ -56,26 +56,27 @@ class NetworkLab {
     }
   }
 
-  // Has the address 10.77.0.`number`.
+  // Adds a host with the address 10.77.0.`number`.
   void AddHost(int number) {
     AddHostWithoutAddress(number);
     GiveAddress(number, number);
   }
-  // Its eth0 is up: a network that has yet to say what address it is to have.
+  // Adds a host whose eth0 is up, as on a network that has yet to assign an address.
   void AddHostWithoutAddress(int number) {
     hosts_[number] = HoldNamespace();
     Run(At(number, {"ip", "link", "set", "lo", "up"}));
     MakeInterface(number);
   }
 
-  // 10.77.0.`address`.
+  // Adds the address 10.77.0.`address`.
   void GiveAddress(int number, int address) {
     Run(At(number, {"ip", "address", "add", Address(address), "dev", "eth0"}));
   }
   void TakeAddress(int number, int address) {
     Run(At(number, {"ip", "address", "delete", Address(address), "dev", "eth0"}));
   }
-  // As a radio that is unplugged: the host has no eth0 until it is made anew, without an address.
+  // Removes the interface, like a radio that is unplugged: the host has no eth0 until it is made
+  // anew, without an address.
   void DeleteInterface(int number) { Run({"ip", "link", "delete", Port(number)}); }
   void MakeInterface(int number) {
     Run({"ip", "link", "add", Port(number), "type", "veth", "peer", "name", "eth0", "netns",
@@ -84,31 +85,32 @@ class NetworkLab {
     Run(At(number, {"ip", "link", "set", "eth0", "up"}));
   }
 
-  // The command line that runs `words` at the host.
+  // Returns the command line that runs `words` at the host.
   [[nodiscard]] Words At(int number, const Words& words) const {
     Words all{"/usr/bin/nsenter", "--target", std::to_string(hosts_.at(number)), "--net", "--"};
     all.insert(all.end(), words.begin(), words.end());
     return all;
   }
 
-  // Out of range: its frames are lost both ways, and its interface does not notice.
+  // Takes the host out of range: its frames are lost in both directions, and its interface does not
+  // notice.
   void Cut(int number) { Run({"ip", "link", "set", Port(number), "nomaster"}); }
   void Join(int number) { Run({"ip", "link", "set", Port(number), "master", "air"}); }
 
-  // From now on the air carries no multicast between the hosts there are.
+  // Stops multicast between the hosts that there are.
   void ForbidMulticast() {
     for (const auto& [number, pid] : hosts_) {
       Run({"ip", "link", "set", Port(number), "type", "bridge_slave", "mcast_flood", "off"});
     }
   }
 
-  // How fast the host sends: "20mbit".
+  // Limits how fast the host sends: "20mbit".
   void Limit(int number, const std::string& rate) {
     Run(At(number, {"tc", "qdisc", "replace", "dev", "eth0", "root", "tbf", "rate", rate, "burst",
                     "32kb", "latency", "200ms"}));
   }
 
-  // Of the packets that the host receives, so large a share is lost; needs iptables.
+  // Drops this share of the packets that the host receives. It needs iptables.
   void Lose(int number, double share) {
     Run(At(number, {"iptables", "-t", "raw", "-F", "PREROUTING"}));
     if (share <= 0.0) return;
@@ -116,7 +118,7 @@ class NetworkLab {
                     "--mode", "random", "--probability", std::to_string(share), "-j", "DROP"}));
   }
 
-  // Bytes that the host has sent.
+  // Returns the number of bytes that the host has sent.
   [[nodiscard]] std::uint64_t Sent(int number) const {
     std::ifstream file("/proc/" + std::to_string(hosts_.at(number)) + "/net/dev");
     for (std::string line; std::getline(file, line);) {
@@ -134,7 +136,7 @@ class NetworkLab {
   static std::string Port(int number) { return "port" + std::to_string(number); }
   static std::string Address(int address) { return "10.77.0." + std::to_string(address) + "/24"; }
 
-  // The exit status of `run` in a child process.
+  // Returns the exit status of `run` in a child process.
   template <typename Function>
   static int Child(const Function& run) {
     const pid_t pid = fork();
@@ -144,7 +146,7 @@ class NetworkLab {
     return status;
   }
 
-  // In a namespace of its own when this returns.
+  // Starts a process, which is in a namespace of its own when this returns.
   static pid_t HoldNamespace() {
     int ready[2];
     if (pipe2(ready, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");

@@ -11,8 +11,8 @@
 
 namespace trailcast::test {
 
-// A flat wall of overlapping rectangles with soft edges, which can be photographed at any
-// magnification, shift and gain: analytic images, so that tests know where each point went.
+// This is a flat wall of overlapping rectangles with soft edges, which can be photographed at any
+// magnification, shift and gain. Its images are analytic, so that tests know where each point went.
 class PaintedWall {
  public:
   explicit PaintedWall(unsigned seed, int rectangles = 160) {
@@ -26,7 +26,7 @@ class PaintedWall {
     }
   }
 
-  // Grey level at a point of the wall, before gain.
+  // Returns the grey level at a point of the wall, before gain.
   [[nodiscard]] double Level(double x, double y) const {
     double level = 120.0;
     for (const Rectangle& r : rectangles_) {
@@ -40,9 +40,9 @@ class PaintedWall {
     return level;
   }
 
-  // A frame in which the wall's point (x, y) appears at scale * (x, y) + (du, dv) pixels from the
-  // image centre, turned clockwise by roll_rad before the shift, all grey levels multiplied by
-  // `gain`, with noise of `noise_grey`.
+  // Returns a frame in which the wall's point (x, y) appears at scale * (x, y) + (du, dv) pixels
+  // from the image centre, turned clockwise by roll_rad before the shift, with all grey levels
+  // multiplied by `gain` and with noise of `noise_grey`.
   struct View {
     double scale = 1.0;
     double du_px = 0.0;
@@ -64,7 +64,7 @@ class PaintedWall {
         const double v = (row - 0.5 * (view.height - 1) - view.dv_px) / view.scale;
         const double x = std::cos(view.roll_rad) * u + std::sin(view.roll_rad) * v;
         const double y = std::cos(view.roll_rad) * v - std::sin(view.roll_rad) * u;
-        // The sum of three uniform numbers is near enough to a Gaussian of standard deviation 1/2.
+        // The sum of three uniform numbers is close enough to a Gaussian of standard deviation 1/2.
         double noise = -1.5;
         for (int i = 0; i < 3; ++i) noise += static_cast<double>(random()) / 4294967296.0;
         const double grey = view.gain * Level(x, y) + 2.0 * view.noise_grey * noise;
@@ -79,7 +79,7 @@ class PaintedWall {
     double x, y, half_width, half_height, contrast;
   };
   static constexpr double kSoftEdge = 5.0;  // beyond it the step is below 1e-4
-  // 0 outside, 1 inside, a smooth step of about 2 units between.
+  // Returns 0 outside and 1 inside, with a smooth step of about 2 units between.
   static double Soft(double inside) { return 1.0 / (1.0 + std::exp(-2.0 * inside)); }
 
   std::vector<Rectangle> rectangles_;

@@ -11,8 +11,8 @@
 
 namespace trailcast::test {
 
-// Routes of made-up bytes, for tests of what carries them. The digests are no SHA-256, but differ
-// when a byte does.
+// These are routes of made-up bytes, for tests of what carries them. The digests are no SHA-256,
+// but differ when a byte does.
 [[nodiscard]] inline route::Digest ToyDigest(std::span<const std::uint8_t> bytes) {
   route::Digest digest{};
   std::uint64_t hash = 14695981039346656037ULL;
@@ -63,8 +63,8 @@ namespace trailcast::test {
   return pieces;
 }
 
-// What a scout announces of these pieces; they are segments 0, 1, 2, ... Its revision has the
-// number of its teaching.
+// Returns what a scout announces of these pieces, which are segments 0, 1, 2, ... The revision has
+// the number of its teaching.
 [[nodiscard]] inline route::RouteInfo InfoOf(const route::RouteKey& key,
                                              std::span<const route::SegmentPiece> pieces,
                                              route::RouteState state) {
@@ -91,7 +91,8 @@ namespace trailcast::test {
   return info;
 }
 
-// A server's that has the first `prefix` of these pieces, and those `beyond`.
+// Returns the acknowledgement of a server that has the first `prefix` of these pieces, and those
+// `beyond`.
 [[nodiscard]] inline exchange::Receipt ReceiptFor(
     const AgentId& server, const route::RouteKey& key, std::span<const route::SegmentPiece> pieces,
     std::uint32_t prefix, const std::vector<SegmentIndex>& beyond = {},
@@ -115,7 +116,7 @@ namespace trailcast::test {
   return indices;
 }
 
-// Those of one kind, in order.
+// Returns the messages of one kind, in order.
 template <typename Kind>
 [[nodiscard]] std::vector<Kind> Only(const std::vector<exchange::Message>& messages) {
   std::vector<Kind> kept;
@@ -125,7 +126,7 @@ template <typename Kind>
   return kept;
 }
 
-// The pieces of all batches, in order.
+// Returns the pieces of all batches, in order.
 [[nodiscard]] inline std::vector<route::SegmentPiece> PiecesIn(
     const std::vector<exchange::Message>& messages) {
   std::vector<route::SegmentPiece> pieces;

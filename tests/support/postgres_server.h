@@ -12,12 +12,12 @@
 
 namespace trailcast::test {
 
-// A PostgreSQL of the test's own, reached by a socket in a temporary folder, gone when the test is
-// over. Run by root, it runs as the user `postgres` that Debian's package makes. Throws
-// std::runtime_error, saying why, when it cannot be started.
+// This is a PostgreSQL server of the test's own, reached by a socket in a temporary folder, and
+// gone when the test is over. If root runs it, it runs as the user `postgres` that Debian's package
+// makes. It throws std::runtime_error, which says why, when it cannot be started.
 class PostgresServer {
  public:
-  // Whether its commits wait for the disk; without, what it loses is lost with the machine alone.
+  // This is whether commits wait for the disk. If not, they are lost only if the machine is.
   enum class Sync : std::uint8_t { kOn, kOff };
 
   explicit PostgresServer(Sync sync = Sync::kOff);
@@ -25,21 +25,21 @@ class PostgresServer {
   PostgresServer(const PostgresServer&) = delete;
   PostgresServer& operator=(const PostgresServer&) = delete;
 
-  // One for all tests of a program, as starting takes a second or two.
+  // Returns one server for all tests of a program, because starting takes a second or two.
   static PostgresServer& Shared();
 
   static constexpr const char* kPassword = "open-sesame";
   [[nodiscard]] std::string Url(const std::string& database,
                                 const std::string& password = kPassword) const;
-  // A new, empty one; its URL.
+  // Makes a new, empty database and returns its URL.
   [[nodiscard]] std::string CreateDatabase(const std::string& options = "");
-  // In the database of this URL.
+  // Executes SQL in the database of this URL.
   static void Execute(const std::string& url, const std::string& sql);
 
-  // SIGINT: disconnects all and writes everything; SIGKILL: a crash.
+  // SIGINT disconnects all clients and writes everything. SIGKILL is a crash.
   void Stop(int signal);
   void Start();
-  // All of its processes stand still, and the connections to them stay; until thawed.
+  // Stops all of its processes, with connections to them open, until they are thawed.
   void Freeze() { SignalAll(SIGSTOP); }
   void Thaw() { SignalAll(SIGCONT); }
 

@@ -19,7 +19,8 @@
 
 namespace trailcast::test {
 
-// A process under test: stdout and stderr together in a file, killed when the test is over.
+// This is a process under test, with stdout and stderr together in a file. It is killed when the
+// test is over.
 class Process {
  public:
   Process(std::vector<std::string> argv, std::filesystem::path output)
@@ -59,8 +60,8 @@ class Process {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
 
-  // Until the output holds `text`; false if it does not within the bound, or the process ended
-  // without.
+  // Waits until the output holds `text`. Returns false if it does not within the bound, or the
+  // process ended without it.
   [[nodiscard]] bool WaitForOutput(const std::string& text) {
     return WaitUntil([&] {
              const bool ended = Ended();
@@ -69,7 +70,8 @@ class Process {
            output().find(text) != std::string::npos;
   }
 
-  // The exit status, or 128 and the signal that ended it; nothing if it goes on beyond the bound.
+  // Returns the exit status, or 128 and the signal that ended it, or nothing if it goes on beyond
+  // the bound.
   [[nodiscard]] std::optional<int> Wait(std::chrono::seconds bound = kLongEnough) {
     (void)WaitUntil([&] { return Ended(); }, bound);
     return status_;

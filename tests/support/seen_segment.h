@@ -9,8 +9,8 @@
 
 namespace trailcast::test {
 
-// A segment of features that look like nothing else, spread over a picture of 320 x 240, coming
-// nearer along the segment. The same number gives the same one.
+// Returns a segment of features that resemble nothing else, spread over a picture of 320 x 240,
+// which come nearer along the segment. The same number gives the same segment.
 [[nodiscard]] inline route::Segment SegmentToSee(unsigned number, std::uint32_t index,
                                                  int features = 30) {
   std::mt19937 random(number);
@@ -34,10 +34,10 @@ struct Seeing {
   int flipped_bits = 30;  // of a descriptor's 256
   float shift_u_px = 12.0F;
   float shift_v_px = -4.0F;
-  bool shuffled = false;  // each feature in another one's place
+  bool shuffled = false;  // each feature is in another one's place
 };
 
-// The segment's beginning as somebody else sees it.
+// Returns the segment's beginning as another camera sees it.
 [[nodiscard]] inline route::View ViewOf(const route::Segment& segment, const Seeing& seeing = {}) {
   std::mt19937 random(5);
   route::View view;

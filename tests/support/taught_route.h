@@ -8,7 +8,7 @@
 
 namespace trailcast::test {
 
-// A complete route as a scout leaves it, made of sample segments that decode.
+// This is a complete route as a scout leaves it, made of sample segments that decode.
 struct TaughtRoute {
   route::RouteInfo info;
   std::vector<route::SegmentPiece> pieces;

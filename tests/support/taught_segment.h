@@ -19,14 +19,15 @@ inline std::vector<route::DescribedFeature> Describe(
   return described;
 }
 
-// A segment taught by driving the given arcs from `start` on, 30 steps a second at 0.3 m/s. Its
+// A segment is taught by driving such arcs from `start` on, 30 steps a second at 0.3 m/s. Its
 // features are those in view all the way, in the order of the landmarks' numbers.
 struct Arc {
   double length_m = 0.0;
   double turn_rad = 0.0;  // left positive
 };
 
-// How the scout's camera is mounted, and its lens; and how the ground tilts it along the way.
+// These are how the scout's camera is mounted, its lens, and how the ground tilts it along the
+// path.
 struct ScoutEye {
   double yaw_rad = 0.0;  // to the left
   double focal_px = LandmarkScene::kFocal_px;
@@ -70,7 +71,7 @@ inline TaughtRun TeachArcs(const LandmarkScene& scene, const motion::Pose2& star
   return run;
 }
 
-// What a robot at `pose` sees of the run's features, numbered as in the segment.
+// Returns what a robot at `pose` sees of the run's features, numbered as in the segment.
 inline std::vector<route::TrackedFeature> Matched(const LandmarkScene& scene, const TaughtRun& run,
                                                   const motion::Pose2& pose, const Tilt& tilt = {},
                                                   double focal_px = LandmarkScene::kFocal_px) {

@@ -9,7 +9,7 @@
 
 namespace trailcast::test {
 
-// A folder of the test's own, removed with everything in it when the test ends.
+// This is a folder of the test's own, which is removed with everything in it when the test ends.
 class TempDir {
  public:
   TempDir() {

@@ -13,11 +13,12 @@ inline constexpr int kTurningWidth_px = 160;
 inline constexpr int kTurningHeight_px = 120;
 inline constexpr double kTurningFocal_px = 0.87 * kTurningWidth_px;  // a usual webcam's
 
-// Where a robot heads, counter-clockwise, that turns to the left, to the right, and so on.
+// Returns the heading, counter-clockwise, of a robot that turns to the left, to the right, and so
+// on.
 inline double HeadingAt(int frame) { return 0.5 * std::sin(0.12 * frame); }
 
-// The walk's picture `frame`, of an upright camera on a robot that heads as it does at `turning`:
-// that moves to the right as the robot turns to the left.
+// Returns the walk's picture `frame` by an upright camera on a robot with the heading `turning`.
+// The picture moves to the right as the robot turns to the left.
 inline image::GrayImage TurningWalkFrame(int frame, int turning) {
   constexpr int kMost_px = 90;
   const int right_px = static_cast<int>(std::lround(kTurningFocal_px * HeadingAt(turning)));
@@ -31,7 +32,7 @@ inline image::GrayImage TurningWalkFrame(int frame, int turning) {
   return picture;
 }
 
-// As a camera sees it that is rolled clockwise by so many quarter turns.
+// Returns the picture of a camera that is rolled clockwise by so many quarter turns.
 inline image::GrayImage Rolled(const image::GrayImage& picture, double roll_deg) {
   vision::PictureIntake intake({.roll_deg = -roll_deg});
   return intake.Take(picture);

@@ -8,7 +8,7 @@
 
 namespace trailcast::test {
 
-// A DDS discovery tag, different for every call in every process.
+// Returns a DDS discovery tag, which is different for every call in every process.
 inline std::string UniqueTag() {
   static std::atomic<int> count = 0;
   const auto ticks = std::chrono::steady_clock::now().time_since_epoch().count();

@@ -23,18 +23,18 @@
 
 namespace trailcast::test {
 
-// What SQLite sees of the disk while this is there, in one thread: files as they are, and a copy of
-// each as it is on the platter, which has what was synced. At one of SQLite's calls the power goes,
-// or that call alone fails.
+// While this exists, it is what SQLite sees of the disk, in one thread: files as they are, and a
+// copy of each as it is on the platter, which has what was synced. At one of SQLite's calls the
+// power fails, or that call alone fails.
 class UnluckyDisk {
  public:
   enum class Fate : std::uint8_t { kPowerGoes, kCallFails };
-  // What of the writes that nothing waited for has come to the platter all the same.
+  // This is which of the unsynced writes have reached the platter all the same.
   enum class Kept : std::uint8_t {
     kNone,
     kAll,         // as after a process was killed
-    kHalfOfLast,  // all, and of the last its first half
-    kEverySecond  // the disk has its own order
+    kHalfOfLast,  // all, but only the first half of the last
+    kEverySecond  // the disk has an order of its own
   };
   static constexpr std::array kAllKept{Kept::kNone, Kept::kAll, Kept::kHalfOfLast,
                                        Kept::kEverySecond};
@@ -55,9 +55,9 @@ class UnluckyDisk {
   UnluckyDisk(const UnluckyDisk&) = delete;
   UnluckyDisk& operator=(const UnluckyDisk&) = delete;
 
-  // Whether its call has come.
+  // Returns whether its call has come.
   [[nodiscard]] bool struck() const { return struck_; }
-  // What is found when the power is back, in a folder of its own.
+  // Writes what is found when the power is back into a folder.
   void RestoreInto(const std::filesystem::path& folder, Kept kept) const {
     for (const auto& [path, file] : files_) {
       const auto bytes = file.Found(kept);
@@ -74,9 +74,9 @@ class UnluckyDisk {
     bool cuts = false;  // the file ends there
   };
   struct Platter {
-    std::optional<std::string> bytes{};  // none: there is no such file
+    std::optional<std::string> bytes{};  // empty if there is no such file
     std::vector<Write> unsynced{};
-    bool deleted = false;  // which its folder may not know yet
+    bool deleted = false;  // its folder may not know it yet
 
     static void Do(const Write& write, std::size_t size, std::string& to) {
       if (write.cuts) return to.resize(write.at);
@@ -101,15 +101,15 @@ class UnluckyDisk {
       return found;
     }
   };
-  // SQLite's, with its own one behind it.
+  // This is SQLite's file, with the real one behind it.
   struct File : sqlite3_file {
     UnluckyDisk* disk;
     Platter* platter;
-    bool is_new_log;  // of either kind: with it SQLite syncs its folder
+    bool is_new_log;  // a log of either kind, with which SQLite syncs its folder
     [[nodiscard]] sqlite3_file* real() { return reinterpret_cast<sqlite3_file*>(this + 1); }
   };
 
-  // What happens to this call instead; SQLITE_OK: nothing.
+  // Returns what happens to this call instead, or SQLITE_OK for nothing.
   int Strike(int error) {
     const bool now = calls_++ == at_call_;
     struck_ = struck_ || now;
@@ -233,17 +233,17 @@ class UnluckyDisk {
   std::map<std::string, Platter> files_;
 };
 
-// What is told to a store, and whether it has it.
+// This is something that a store is told, and how to ask whether it has it.
 template <typename Store>
 struct Told {
   std::function<Result<void>(Store&)> tell;
   std::function<bool(Store&)> is_there;
 };
 
-// Tells a new store all of these, and opens it anew in the middle, once for each of its calls to
-// the disk: at that one the power goes, or the call fails. Whatever it said that it has it has
-// afterwards; nothing is thrown; what failed is told; and where one call alone has failed, what is
-// told later is stored again.
+// Tells a new store all of these, and opens it anew in the middle. It repeats this for each of the
+// store's calls to the disk, at which the power or the call fails. Afterwards the store has
+// whatever it said that it has; it throws nothing and reports what failed; and if one call alone
+// has failed, it stores again what it is told later.
 template <typename Store>
 void ExpectThatNothingTakenIsLost(
     const std::function<Result<std::unique_ptr<Store>>(const std::filesystem::path&)>& open,

@@ -11,9 +11,9 @@
 
 namespace trailcast::test {
 
-// What a camera sees that goes straight at a wall of blocks in many sizes: picture `frame` of a
-// walk, each nearer than the one before by one percent. Blocks of all sizes, so that there are
-// corners to hold on to however near it is.
+// Returns picture `frame` of a camera that goes straight at a wall, each nearer than the one before
+// by one percent. The wall has blocks of all sizes, so that there are corners to track however near
+// it is.
 inline image::GrayImage WalkFrame(int frame, int width = 160, int height = 120) {
   const auto brightness = [](std::int64_t column, std::int64_t row, std::uint64_t size) {
     std::uint64_t hash = static_cast<std::uint64_t>(column) * 0x9E3779B97F4A7C15ULL ^
@@ -41,7 +41,7 @@ inline image::GrayImage WalkFrame(int frame, int width = 160, int height = 120) 
   return picture;
 }
 
-// The first `count` pictures of the walk, in `folder`, which is made.
+// Writes the first `count` pictures of the walk into `folder`, which it makes.
 inline void WriteWalk(const std::filesystem::path& folder, int count, int width = 160,
                       int height = 120, int first = 0) {
   std::filesystem::create_directories(folder);

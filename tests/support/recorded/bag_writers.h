@@ -13,7 +13,7 @@
 #include "services/bag/compression.h"
 #include "services/bag/mcap_writer.h"
 
-// Recordings as rosbag2 makes them.
+// These write recordings as rosbag2 does.
 namespace trailcast::test {
 
 class BagWriter {
@@ -35,7 +35,7 @@ inline bag::Bytes ReadBytes(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// The tables of rosbag2's SQLite storage. `zstd`: each message is compressed.
+// This writes the tables of rosbag2's SQLite storage. `zstd` compresses each message.
 class Db3Writer final : public BagWriter {
  public:
   explicit Db3Writer(const std::filesystem::path& file, bool zstd = false)

@@ -15,12 +15,12 @@
 
 namespace trailcast::test {
 
-// A folder of pictures as a robot's recorder would have it: twenty a second, and the odometry,
-// twenty-five a second, of wheels that drive half a metre a second or so: no round number, so that
-// no threshold is met exactly, where rounding decides.
+// Records a folder of pictures as a robot's recorder would: twenty a second, with odometry,
+// twenty-five a second, of wheels that drive about half a metre a second. That is no round number,
+// so that no threshold is met exactly, where rounding decides.
 struct RecordedDrive {
   std::filesystem::path frames;
-  bool compressed = false;  // pictures as the files have them, else decoded, grey
+  bool compressed = false;  // pictures as in the files; otherwise decoded, grey
   bool odometry = true;
 };
 inline constexpr double kDriveRate_hz = 20.0;
@@ -47,7 +47,7 @@ inline void RecordDrive(const RecordedDrive& drive, BagWriter& bag) {
   const auto files = PicturesOf(drive.frames);
   int wheels = 0;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    // To the nanosecond as --rate has it.
+    // This is what --rate gives, to the nanosecond.
     const std::chrono::nanoseconds at = FromSeconds(static_cast<double>(i) / kDriveRate_hz);
     while (drive.odometry && WheelsAt(wheels - 1) < at) {
       const std::chrono::nanoseconds turned_at = WheelsAt(wheels++);
@@ -66,7 +66,7 @@ inline void RecordDrive(const RecordedDrive& drive, BagWriter& bag) {
   }
 }
 
-// The same odometry as a CSV, for as many frames.
+// Writes the same odometry as CSV, for as many frames.
 inline void WriteOdometry(std::size_t frames, const std::filesystem::path& file) {
   std::ofstream stream(file);
   stream << "t_s,x_m,y_m,heading_rad\n";

@@ -10,8 +10,8 @@
 
 namespace trailcast::test {
 
-// A whole run, a folder of pictures, as another camera would have recorded it, into another folder,
-// which is made; throws std::runtime_error where a picture cannot be read or written.
+// Writes a whole run, a folder of pictures, as another camera would have recorded it, into another
+// folder, which it makes. Throws std::runtime_error if a picture cannot be read or written.
 inline void RecordThrough(const trial::OtherCamera& camera, const std::filesystem::path& frames,
                           const std::filesystem::path& into) {
   std::filesystem::create_directories(into);

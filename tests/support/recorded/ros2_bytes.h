@@ -5,9 +5,10 @@
 #include <string_view>
 #include <vector>
 
-// Messages of ROS 2 as other programs write them: CDR, encoding 1, in hexadecimal, a field a line,
-// padding before it. Packed number by number after the .msg files of ROS 2 (Humble), by none of our
-// code; tests/golden/ros2 has what Foxglove's makes of the same values.
+// These are messages of ROS 2 as other programs write them: CDR, encoding 1, in hexadecimal, one
+// field in each line with the padding before it. They are packed number by number after the .msg
+// files of ROS 2 (Humble), by none of this project's code. tests/golden/ros2 has what Foxglove's
+// code makes of the same values.
 namespace trailcast::test {
 
 struct Ros2Bytes {
@@ -29,14 +30,14 @@ inline std::vector<std::uint8_t> FromHex(const std::string& hex) {
   return bytes;
 }
 
-// As it travels and is recorded: behind the four bytes that say how it is encoded, and with what a
-// newer definition of the message, or a writer that pads, has behind it.
+// Returns the bytes as they travel and are recorded: behind the four bytes that tell the encoding,
+// and before what a newer definition of the message, or a writer that pads, appends.
 inline std::vector<std::uint8_t> Recorded(const Ros2Bytes& message, bool little, int more = 0) {
   return FromHex((little ? "00010000" : "00000000") + (little ? message.little : message.big) +
                  Times(more, "7f"));
 }
 
-// All of them were stamped 1700000000.5 s.
+// All of them are stamped 1700000000.5 s.
 inline const Ros2Bytes kImage{
     std::string("00f15365")  // stamp, s
         +

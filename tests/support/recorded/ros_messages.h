@@ -11,7 +11,7 @@
 #include "services/image/image.h"
 #include "services/motion/motion.h"
 
-// The messages of ROS 2 as its nodes write them: CDR, encoding 1.
+// These are the messages of ROS 2 as its nodes write them: CDR, encoding 1.
 namespace trailcast::test {
 
 class CdrWriter {
@@ -45,7 +45,7 @@ class CdrWriter {
     Put(static_cast<std::uint32_t>(seconds.count()));
     return Put(static_cast<std::uint32_t>((stamp - seconds).count())).PutText(frame);
   }
-  // With the four bytes that say how it is encoded.
+  // Returns the bytes with the four before them that tell the encoding.
   [[nodiscard]] std::vector<std::uint8_t> Message() const {
     std::vector<std::uint8_t> message{0, static_cast<std::uint8_t>(little_endian_ ? 1 : 0), 0, 0};
     message.insert(message.end(), bytes_.begin(), bytes_.end());

@@ -10,8 +10,8 @@
 
 namespace trailcast::test {
 
-// A replay's log in the making, as a small language: a robot that goes straight on at 0.4 m/s, ten
-// frames a second, and what befalls it.
+// This makes a replay's log in a small language: a robot goes straight on at 0.4 m/s, with ten
+// frames a second, and things happen to it.
 class SampleRun {
  public:
   SampleRun() {
@@ -35,7 +35,7 @@ class SampleRun {
     row_.phase = agent::Phase::kSure;
   }
 
-  agent::FrameRow& row() { return row_; }  // what the next frames will be like
+  agent::FrameRow& row() { return row_; }  // the next frames will be like this
 
   SampleRun& HandOver(int segment, int found, const std::string& search = "near",
                       double length_m = 2.0) {
@@ -85,7 +85,7 @@ class SampleRun {
   }
 
   [[nodiscard]] const agent::RunLog& Log() const { return log_; }
-  // As an agent writes it; unless `whole`, as far as it has by now.
+  // Returns the log as an agent writes it. Unless `whole`, it has what an agent has written by now.
   [[nodiscard]] std::string Mcap(bool whole = true) const {
     agent::RunMcap mcap(0.0);
     for (const agent::RunMoment& moment : moments_) mcap.Add(moment);

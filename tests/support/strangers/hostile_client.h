@@ -12,10 +12,10 @@
 
 namespace trailcast::test {
 
-// A connection to a port of this machine, as nobody's HTTP library would have it.
+// This is a connection to a port of this machine that no HTTP library would make.
 class RawConnection {
  public:
-  // `from`: one of this machine's addresses.
+  // `from` is one of this machine's addresses.
   explicit RawConnection(int port, const std::string& from = "127.0.0.1")
       : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     sockaddr_in address{};
@@ -35,13 +35,13 @@ class RawConnection {
   RawConnection(const RawConnection&) = delete;
   RawConnection& operator=(const RawConnection&) = delete;
 
-  // How much of it was taken.
+  // Returns how many of the bytes were taken.
   std::size_t Send(const std::string& text) const {
     const ssize_t sent = send(socket_, text.data(), text.size(), MSG_NOSIGNAL);
     return sent > 0 ? static_cast<std::size_t>(sent) : 0;
   }
-  // Sends `beginning`, and `more` again and again until the other side has had enough; how much it
-  // took.
+  // Sends `beginning`, and `more` repeatedly until the other side has had enough. Returns how many
+  // bytes it took.
   std::size_t SendForEver(const std::string& beginning, const std::string& more) const {
     constexpr std::size_t kTooMuch = 200U << 20U;
     std::size_t taken = Send(beginning);
@@ -57,7 +57,7 @@ class RawConnection {
     const ssize_t got = recv(socket_, bytes.data(), bytes.size(), 0);
     return got > 0 ? std::string(bytes.data(), static_cast<std::size_t>(got)) : "";
   }
-  // Until the other side hangs up.
+  // Waits until the other side hangs up.
   [[nodiscard]] std::string ReceiveAll() const {
     std::string all;
     while (true) {
@@ -71,7 +71,7 @@ class RawConnection {
   int socket_;
 };
 
-// Of this process.
+// Returns the resident memory of this process.
 inline std::size_t ResidentBytes() {
   std::ifstream statm("/proc/self/statm");
   std::size_t pages = 0;

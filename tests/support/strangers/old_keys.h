@@ -12,7 +12,7 @@
 
 namespace trailcast::test {
 
-// Takes all of `what` out of a member's permissions, as they were before there was such a thing.
+// Removes all of `what` from a member's permissions, as they were before it existed.
 inline void TakeOutOfPermissions(const std::filesystem::path& authority,
                                  const std::filesystem::path& keys, const std::string& what) {
   using security::ReadSmallFile;
@@ -28,8 +28,8 @@ inline void TakeOutOfPermissions(const std::filesystem::path& authority,
   }
 }
 
-// Makes a member's folder one that was given before segments had scopes: its permissions do not
-// allow the partitions below the member's own.
+// Makes a member's folder one from before segments had scopes: its permissions do not allow the
+// partitions below the member's own.
 inline void MakeOfBeforeScopes(const std::filesystem::path& authority,
                                const std::filesystem::path& keys) {
   const auto facts =
@@ -39,20 +39,20 @@ inline void MakeOfBeforeScopes(const std::filesystem::path& authority,
                        "<partition>" + security::PartitionOf(member) + "/*</partition>");
 }
 
-// Makes a member's folder one that was given before servers spread revocations.
+// Makes a member's folder one from before servers spread revocations.
 inline void MakeOfBeforeRevocations(const std::filesystem::path& authority,
                                     const std::filesystem::path& keys) {
   TakeOutOfPermissions(authority, keys,
                        std::string("<topic>") + security::kRevocationsTopic + "</topic>");
 }
 
-// The same of before operators told robots what to do now.
+// Makes a member's folder one from before operators commanded robots.
 inline void MakeOfBeforeNow(const std::filesystem::path& authority,
                             const std::filesystem::path& keys) {
   TakeOutOfPermissions(authority, keys, "<topic>trailcast/now</topic>");
 }
 
-// The same of before they sent robots on missions.
+// Makes a member's folder one from before operators sent robots on missions.
 inline void MakeOfBeforeMissions(const std::filesystem::path& authority,
                                  const std::filesystem::path& keys) {
   TakeOutOfPermissions(authority, keys, "<topic>trailcast/missions</topic>");

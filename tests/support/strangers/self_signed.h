@@ -18,7 +18,7 @@ struct SelfSigned {
   std::filesystem::path key;
 };
 
-// For localhost, valid for a day: files in `folder`.
+// Makes a certificate for localhost, valid for a day, with its files in `folder`.
 inline SelfSigned MakeSelfSigned(const std::filesystem::path& folder,
                                  const std::string& name = "tls") {
   SelfSigned made{folder / (name + ".pem"), folder / (name + ".key")};

@@ -15,7 +15,7 @@
 
 namespace trailcast::test {
 
-// Reads along whatever passes an interface, as somebody at the same switch would. For root only.
+// This reads whatever passes an interface, as anyone at the same switch could. It needs root.
 class Sniffer {
  public:
   explicit Sniffer(const std::string& interface) : socket_(Open()) {
@@ -39,7 +39,7 @@ class Sniffer {
     close(socket_);
   }
 
-  // All frames since the beginning, one after the other.
+  // Returns all frames since the beginning, one after the other.
   [[nodiscard]] std::string Stop() {
     stop_ = true;
     thread_.join();

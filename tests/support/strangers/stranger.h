@@ -13,13 +13,13 @@
 
 namespace trailcast::test {
 
-// Somebody at the network of a fleet with DDS Security, with keys or without, whose program does
-// none of the checks that ours do before they join.
+// This is a stranger at the network of a fleet with DDS Security, with keys or without, whose
+// program makes none of the checks that the fleet's programs make before they join.
 class Stranger {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // The keys as they say they are. Throws for a folder that is no member's.
+  // Reads keys as they claim to be. Throws for a folder that is no member's.
   static security::MemberKeys AtTheirWord(const std::filesystem::path& folder,
                                           const std::filesystem::path& name_key) {
     security::MemberKeys keys;
@@ -41,8 +41,8 @@ class Stranger {
     return dds::OpenDdsExchange(network, use);
   }
 
-  // Messages that reach somebody who asks for so long, whether or not they can be understood; that
-  // others are gone is no message of theirs.
+  // Returns the messages that reach a stranger within this time, whether or not they can be
+  // understood. A notice that a member is gone is no message of that member.
   static std::size_t HeardBy(exchange::RouteExchange& stranger, std::chrono::seconds patience,
                              const std::string& name = "stranger") {
     std::size_t heard = 0;

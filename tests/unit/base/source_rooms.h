@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,10 +35,11 @@ inline std::string RoomOf(const std::string& path) {
   return path.substr(0, end == std::string::npos ? below - 1 : end);
 }
 
-inline std::vector<SourceLine> ReadSources() {
+inline std::vector<SourceLine> ReadSources(std::initializer_list<const char*> folders = {
+                                               "services", "agent", "route_server"}) {
   const std::filesystem::path root(SourceDir());
   std::vector<SourceLine> lines;
-  for (const char* top : {"services", "agent", "route_server"}) {
+  for (const char* top : folders) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / top)) {
       const std::string extension = entry.path().extension();
       if (extension != ".h" && extension != ".cc" && extension != ".c") continue;
