@@ -11,10 +11,10 @@
 
 namespace trailcast::bench {
 
-// What console.sh measures with, each a subcommand of console_bench.
+// These are the subcommands of console_bench, with which console.sh measures.
 
-// Complete routes of one name each, 92 m long in thirty segments that decode where robots follow
-// them (the first `followed`), and otherwise of one.
+// These make complete routes of one name each, 92 m long. Routes that robots follow (the first
+// `followed`) have thirty segments that decode; all others have one.
 [[nodiscard]] route::RouteInfo ConsoleRoute(std::uint32_t n, std::uint32_t followed);
 [[nodiscard]] Result<void> MakeConsoleStore(const std::filesystem::path& file, std::uint32_t routes,
                                             std::uint32_t followed);
@@ -22,10 +22,10 @@ namespace trailcast::bench {
 struct PlayedFleetOptions {
   std::uint32_t robots = 100;
   std::string network_interface = "eth0";
-  bool still = false;  // they tell the same again and again
+  bool still = false;  // they report the same all the time
 };
-// Until a signal: robots on duty on their ways, a member of the fleet each. Each says how it is as
-// often as in a fleet of this size, has come further each time, and takes what missions it is sent.
+// Plays robots on missions until a signal, each a member of the fleet. Each reports as often as in
+// a fleet of this size, has come further each time, and takes the missions that it is sent.
 [[nodiscard]] Result<void> PlayFleet(const PlayedFleetOptions& options);
 
 struct ConsoleOptions {
@@ -36,7 +36,7 @@ struct ConsoleOptions {
   std::uint32_t robots = 100;
   std::uint32_t routes = 5000;
   int seconds = 30;             // for each figure
-  std::uint32_t day = 432'000;  // changes that the page is told; 0: it is not left open
+  std::uint32_t day = 432'000;  // changes that the page receives; 0 if it is not left open
 };
 // Starts a console and a browser, and prints what they cost, and how smooth the pages are.
 [[nodiscard]] Result<void> MeasureConsole(const ConsoleOptions& options);

@@ -2,7 +2,7 @@
 
 namespace trailcast::bench {
 
-// Put into each page before its own: window.bench.
+// This script comes before a page's own. It is window.bench.
 inline constexpr const char* kBenchScript = R"js(
 window.bench = (() => {
   const shows = {
@@ -17,7 +17,7 @@ window.bench = (() => {
   new PerformanceObserver((list) => {
     for (const entry of list.getEntries()) if (counts) tasks.push(entry.duration);
   }).observe({ entryTypes: ['longtask'] });
-  // In frames, as a person sees it.
+  // This counts frames, as a person sees it.
   const waitFor = (is) => {
     const from = performance.now();
     shown = 0;
@@ -28,10 +28,10 @@ window.bench = (() => {
     look();
   };
   return {
-    // Until the page shows, since it was opened.
+    // This is the time from opening the page until it shows.
     watch: (name, n) => waitFor(() => shows[name](n)),
     go: (name, n) => { window.location.hash = name; waitFor(() => shows[name](n)); },
-    // A letter at a time into the field; until the first row begins so.
+    // This types one letter at a time into the field, until the first row begins so.
     type: (selector, text) => {
       const field = document.querySelector(selector);
       const set = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, 'value').set;
@@ -45,7 +45,7 @@ window.bench = (() => {
       shown = 0;
       next();
     },
-    // Asks for the next page of what is listed, so often.
+    // This asks for the next page of the list, so often.
     more: (times) => {
       const rows = () => document.querySelector('.routes > [role=status]').textContent;
       const button = () => [...document.querySelectorAll('.routes > button')].at(-1);
@@ -95,9 +95,9 @@ window.bench = (() => {
 })();
 )js";
 
-// Put before that where a day is told again: the page hears no console, but what one has said
-// within a minute, again and again, each robot on another route every time. Each change is drawn
-// before the next is told. Needs window.said = {state, changes, routes}.
+// This script comes before that one to repeat a day. The page hears no console, but repeatedly what
+// one has said within a minute, with each robot on another route every time. Each change is drawn
+// before the next one comes. It needs window.said = {state, changes, routes}.
 inline constexpr const char* kReplayScript = R"js(
 window.replay = (() => {
   const listeners = {};

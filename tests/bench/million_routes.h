@@ -10,8 +10,8 @@ namespace trailcast::bench {
 
 inline constexpr std::uint32_t kMillion = 1'000'000;
 
-// Ten revisions of a name, a thousand routes of a site's tag, begun anywhere on ten kilometres;
-// without their segments.
+// Returns one of a million routes, without its segments. There are ten revisions of each name and a
+// thousand routes of each site's tag, begun anywhere on ten kilometres.
 [[nodiscard]] route::RouteInfo RouteNumber(std::uint32_t n);
 
 // Puts all of them.

@@ -8,7 +8,7 @@
 
 namespace trailcast::bench {
 
-// What there is nothing to measure without.
+// Returns a value without which there is nothing to measure.
 template <typename Value>
 Value Must(Result<Value> result) {
   if (result) return std::move(*result);

@@ -21,7 +21,7 @@ struct Taught {
   }
 };
 
-// The complete routes of a store.
+// Returns the complete routes of a store.
 inline std::vector<Taught> TaughtIn(const std::filesystem::path& file) {
   std::vector<Taught> taught;
   const auto store = Must(store::OpenSqliteStore(file));
@@ -35,7 +35,7 @@ inline std::vector<Taught> TaughtIn(const std::filesystem::path& file) {
   return taught;
 }
 
-// A segment for each of their views, which distractors (view_corpus.h) are made of.
+// Returns a segment for each of their views, of which distractors (view_corpus.h) are made.
 inline std::vector<route::Segment> ViewsApart(const std::vector<Taught>& routes) {
   std::vector<route::Segment> apart;
   for (const Taught& route : routes) {

@@ -10,14 +10,14 @@
 
 namespace trailcast::bench {
 
-// A route that a scout taught.
+// This is a route that a scout taught.
 struct Walk {
   std::string name;
   bool is_lap = false;  // ends where it begins
   std::vector<route::Segment> segments;
 };
 
-// A view by somebody who came along later.
+// This is a view by a robot that came along later.
 struct HeldView {
   std::string set;
   std::uint32_t walk = 0;  // position in Corpus::walks
@@ -33,11 +33,12 @@ struct Corpus {
   std::vector<route::Segment> elsewhere;  // views of the taught worlds, away from the paths
 };
 
-// Taught and seen anew; takes minutes. `data`: recorded runs; what is absent is left out.
+// Teaches and sees everything anew, which takes minutes. `data` has recorded runs; absent ones are
+// left out.
 [[nodiscard]] Corpus MakeCorpus(const std::filesystem::path& data);
 
-// A segment that nobody taught: of features out of up to three of those, some bits of each flipped,
-// each group in a place of its own. The same number gives the same one.
+// Returns a segment that nobody taught, of features out of up to three of those. Some bits of each
+// are flipped, and each group is in a place of its own. The same number gives the same segment.
 [[nodiscard]] route::Segment Distractor(const std::vector<route::Segment>& elsewhere,
                                         std::uint32_t number);
 

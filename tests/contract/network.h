@@ -11,8 +11,8 @@
 
 namespace trailcast::test {
 
-// What the contract is tested on: a bus in process, or DDS on the loopback interface, shut off from
-// other tests by a discovery tag of its own.
+// The contract is tested on a bus in process, and on DDS on the loopback interface, which a
+// discovery tag separates from other tests.
 class Network {
  public:
   virtual ~Network() = default;
@@ -26,17 +26,18 @@ enum class NetworkKind { kInProcess, kDds };
 
 [[nodiscard]] dds::DdsOptions LoopbackOptions(const std::string& tag);
 
-// Reads and writes everything.
+// This reads and writes everything.
 [[nodiscard]] exchange::TopicUse EveryTopic();
 
-// Takes from `exchange`, giving each message to `use`, until `done`; false if that takes too long.
+// Takes from `exchange` and gives each message to `use`, until `done`. Returns false if that takes
+// too long.
 [[nodiscard]] bool TakeUntil(exchange::RouteExchange& exchange,
                              const std::function<void(const exchange::Message&)>& use,
                              const std::function<bool()>& done);
 
-// Endpoints find each other in the background: publishes probes on the topic until each of
-// `readers` has got one, then takes what is left of them. False if that takes too long. Who listens
-// by route has to listen to the probes' one.
+// Endpoints find each other in the background, so this publishes probes on the topic until each of
+// `readers` has got one, and then takes what is left of them. Returns false if that takes too long.
+// A reader that listens by route must listen to the probes' route.
 [[nodiscard]] bool Connect(exchange::RouteExchange& writer, exchange::Topic topic,
                            const std::vector<exchange::RouteExchange*>& readers);
 [[nodiscard]] route::RouteKey ProbeRoute();

@@ -14,9 +14,9 @@
 
 namespace trailcast::test {
 
-// A scout, a server and followers sharing one route over a network of faults, stepped by hand: each
-// Step is 10 ms of their time, whatever the real network takes. The loops are those of the real
-// programs: take, handle, tick, publish.
+// These are a scout, a server and followers that share one route over a network of faults, stepped
+// by hand. Each Step is 10 ms of their time, whatever the real network takes. The loops are those
+// of the real programs: take, handle, tick, publish.
 class Swarm {
  public:
   Swarm(NetworkKind kind, exchange::Faults faults)
@@ -29,18 +29,18 @@ class Swarm {
   };
 
   void StartScout();   // from its store, which survives StopScout
-  void StartServer();  // likewise
+  void StartServer();  // from its store, likewise
   void StopScout() { sender_.reset(), scout_.reset(); }
   void StopServer() { keeper_.reset(), server_.reset(); }
   Follower& AddFollower();
   void AddLender();  // has all that was taught
 
-  // Stores and streams one more segment; TeachLast also completes the route.
+  // Stores and streams one more segment. TeachLast also completes the route.
   void Teach(bool last = false);
   void TeachLast() { Teach(true); }
 
   void Step();
-  // True if `done` within so much of the swarm's time.
+  // Steps until `done`. Returns whether that was within so much of the swarm's time.
   template <typename Done>
   [[nodiscard]] bool StepUntil(const Done& done, std::chrono::seconds limit = kLimit) {
     for (const auto end = now_ + limit; now_ < end && !done();) Step();

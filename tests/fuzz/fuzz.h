@@ -10,19 +10,19 @@
 
 #include "tests/support/temp_dir.h"
 
-// Called by libFuzzer with each input.
+// libFuzzer calls this with each input.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace trailcast::fuzz {
 
-// What must hold whatever the input is. libFuzzer keeps the input of a process that aborts.
+// This must hold for any input. libFuzzer keeps the input of a process that aborts.
 inline void Require(bool holds, const char* what) {
   if (holds) return;
   std::fprintf(stderr, "does not hold: %s\n", what);
   std::abort();
 }
 
-// The input as a file, for readers that take a path; the next input takes the place of the last.
+// Returns the input as a file, for readers that take a path. The next input replaces it.
 inline std::filesystem::path AsFile(std::span<const std::uint8_t> input, const char* name) {
   static const test::TempDir folder;
   std::filesystem::path path = folder / name;

@@ -15,8 +15,8 @@ namespace trailcast::fuzz {
 
 using Time = std::chrono::steady_clock::time_point;
 
-// What strangers may say to a robot or a server: within bounds, and otherwise anything. They speak
-// of few routes and few segments, so that they often contradict each other.
+// These are messages that strangers may send to a robot or a server: within bounds, and otherwise
+// anything. They are about few routes and few segments, so that they often contradict each other.
 class Stranger {
  public:
   explicit Stranger(FuzzedDataProvider& input) : input_(input) {}
@@ -54,7 +54,7 @@ class Stranger {
   route::RouteKey Key() {
     return test::KeyNumber(input_.ConsumeIntegralInRange<unsigned>(0, 5), Seldom() ? 2 : 1);
   }
-  // Rarely far: every wanted segment costs time.
+  // It is rarely far, because every wanted segment costs time.
   SegmentIndex Index() {
     const std::uint32_t most = Seldom() ? route::kMaxSegmentsPerRoute - 1 : 7;
     return SegmentIndex(input_.ConsumeIntegralInRange<std::uint32_t>(0, most));
@@ -110,7 +110,7 @@ class Stranger {
     }
     return pieces;
   }
-  // Mostly of the pieces that Pieces makes.
+  // It is mostly about the pieces that Pieces makes.
   exchange::Receipt Receipt() {
     const route::RouteKey key = Key();
     const auto count = input_.ConsumeIntegralInRange<std::uint32_t>(0, 20);
@@ -148,7 +148,7 @@ class Stranger {
   FuzzedDataProvider& input_;
 };
 
-// All that goes out could be published.
+// Requires that all messages that are sent could be published.
 inline void RequireBounds(const std::vector<exchange::Message>& messages) {
   for (const exchange::Message& message : messages) {
     Require(exchange::CheckBounds(message).has_value(), "what is sent is within bounds");

@@ -2,7 +2,7 @@
 
 namespace trailcast::test {
 
-// Empty: not built.
+// These are empty if the programs are not built.
 inline constexpr const char* kFastDdsPeer = TRAILCAST_FAST_DDS_PEER;
 inline constexpr const char* kFastDdsRobot = TRAILCAST_FAST_DDS_ROBOT;
 

@@ -14,12 +14,12 @@
 
 namespace trailcast::test {
 
-// Runs the programs as a user would, each test in a folder and a DDS network of its own.
+// This runs the programs as a user would, each test in a folder and a DDS network of its own.
 class ProgramsTest : public testing::Test {
  protected:
   using Words = std::vector<std::string>;
   static constexpr int kTaughtFrames = 150;
-  // The last milestone lies at the taught end: followers walk a little further.
+  // The last milestone lies at the taught end, and followers walk a little further.
   static constexpr int kFollowerFrames = 220;
 
   std::unique_ptr<Process> Start(const std::string& program, const Words& words,
@@ -31,7 +31,7 @@ class ProgramsTest : public testing::Test {
   std::unique_ptr<Process> Agent(const Words& words, const std::string& log = "agent") {
     return Start("trailcast-agent", words, log);
   }
-  // Running, and answering.
+  // Returns a server that runs and answers.
   std::unique_ptr<Process> Server(const std::string& store = "server.db",
                                   const std::string& log = "server") {
     auto server = Start("trailcast-server", {"--store", Path(store)}, log);
@@ -51,7 +51,7 @@ class ProgramsTest : public testing::Test {
   [[nodiscard]] std::string Path(const std::string& name) const {
     return (folder_ / name).string();
   }
-  // A folder of pictures of one walk.
+  // Returns a folder of pictures of one walk.
   std::string Walk(const std::string& name, int frames) {
     WriteWalk(folder_ / name, frames);
     return Path(name);
@@ -68,7 +68,7 @@ class ProgramsTest : public testing::Test {
   }
 
   TempDir folder_;
-  std::string tag_ = "scenario-" + std::to_string(getpid());  // of what is started from now on
+  std::string tag_ = "scenario-" + std::to_string(getpid());  // of programs started from now on
 };
 
 }  // namespace trailcast::test

@@ -26,7 +26,7 @@ class RecordedRunsTest : public ProgramsTest {
   }
   static bool Absent(const std::string& name) { return !std::filesystem::is_directory(Data(name)); }
 
-  // One CSV row a frame, in the contract's columns.
+  // These are CSV rows, one for each frame, in the contract's columns.
   static std::vector<Frame> ReadCsv(const std::string& file) {
     std::ifstream stream(file);
     std::string line;
@@ -46,7 +46,7 @@ class RecordedRunsTest : public ProgramsTest {
     std::vector<Frame> frames;
     int segments = 0;  // of the route
   };
-  // `camera`: the follower's, where it is not the one that recorded the run.
+  // `camera` is the follower's, if it is not the one that recorded the run.
   Replayed TeachAndReplay(const std::filesystem::path& teach, const std::filesystem::path& replay,
                           const std::optional<trial::OtherCamera>& camera = {}) {
     const auto taught = RunAgent({"teach", "--frames", teach.string(), "--route", "run", "--store",
@@ -57,7 +57,7 @@ class RecordedRunsTest : public ProgramsTest {
     if (camera) RecordThrough(*camera, replay, frames = Path("second"));
     const auto replaying = Agent({"replay", "--frames", frames.string(), "--route", "run",
                                   "--store", Path("route.db"), "--csv", Path("out.csv")});
-    // Looking far and wide in larger pictures takes half a minute on a machine of its own.
+    // Searching far and wide in larger pictures takes half a minute on a machine of its own.
     const int status = replaying->Wait(std::chrono::seconds(500)).value_or(-1);
     EXPECT_TRUE(status == 0 || status == 3) << status << ": " << replaying->output();
     return {ReadCsv(Path("out.csv")), Reported("taught.txt", "segments")};
@@ -84,7 +84,7 @@ inline std::map<int, double> ReadSteering(const std::filesystem::path& file) {
   return steering;
 }
 
-// How many frames ask for a turn to the right, and how many to the left.
+// Returns how many frames ask for a turn to the right, and how many to the left.
 inline std::pair<int, int> RightAndLeft(const std::vector<Frame>& frames) {
   const auto right = std::count_if(frames.begin(), frames.end(),
                                    [](const Frame& frame) { return frame.turn_rad > 0.0; });
@@ -99,8 +99,8 @@ inline int FurthestSegment(const std::vector<Frame>& frames) {
   return furthest;
 }
 
-// How many frames ask for a turn to the side that the driver steered to, and of how many that
-// steered clearly. Steering above 0 is to the right and leads the image.
+// Returns how many frames ask for a turn to the side that the driver steered to, out of how many
+// that steered clearly. Steering above 0 is to the right and leads the image.
 struct Steered {
   int agreed = 0;
   int asked = 0;

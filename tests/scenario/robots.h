@@ -19,11 +19,11 @@
 
 namespace trailcast::test {
 
-// Virtual robots in the laboratory, and agents that drive them over ROS 2's topics. Robots and
-// agents have a ROS domain of their own.
+// These are virtual robots in the laboratory, and agents that drive them over ROS 2's topics.
+// Robots and agents have a ROS domain of their own.
 class RobotsTest : public ProgramsTest {
  protected:
-  // Where a robot stands, and the path that a scout is driven along.
+  // These are where a robot stands, and the path that a scout is driven along.
   static constexpr const char* kPath = "1,1.5\n4.5,1.5\n";
 
   std::unique_ptr<Process> BeginRobot(const std::string& name, const Words& words,
@@ -46,7 +46,7 @@ class RobotsTest : public ProgramsTest {
   [[nodiscard]] Words Drives(const std::string& robot) const {
     return {"--ros2", "/" + robot, "--ros-domain", "3", "--ros-dds-tag", tag_};
   }
-  // How far east a robot is that drives now: the last place of its truth that is written whole.
+  // Returns how far east a driving robot is: the last place of its truth that is written whole.
   double Along_m(const std::string& truth) {
     std::ifstream in(Path(truth));
     std::optional<double> x_m;
@@ -57,7 +57,7 @@ class RobotsTest : public ProgramsTest {
     EXPECT_TRUE(x_m) << truth << " has no place";
     return x_m.value_or(-1.0);
   }
-  // It stays where it is for a second; false if it does not within ten.
+  // Waits until the robot stays where it is for a second. Returns false if it does not within ten.
   bool Stands(const std::string& truth) {
     using std::chrono::steady_clock;
     const auto deadline = steady_clock::now() + test::kLongEnough;
@@ -73,11 +73,12 @@ class RobotsTest : public ProgramsTest {
     }
     return false;
   }
-  // Half as fast as it could: a tool that starts late on a busy machine finds it on its way.
+  // The robot drives half as fast as it could, so that a tool that starts late on a busy machine
+  // finds it on its way.
   static constexpr const char* kUnhurried_mps = "0.25";
-  // Where nobody has to.
+  // This is for robots that no tool has to find on their way.
   static constexpr const char* kUnwatched_mps = "0.5";
-  // A robot's agent, on duty; the store has its routes.
+  // Starts a robot's agent, which waits to be sent; the store has its routes.
   std::unique_ptr<Process> Serve(const std::string& robot, const std::string& log = "duty",
                                  const Words& more = {}, const std::string& store = "routes.db") {
     return Agent(With(With({"serve", "--store", Path(store), "--name", robot, "--max-speed",
@@ -100,7 +101,7 @@ class RobotsTest : public ProgramsTest {
     ASSERT_EQ(scout.status, 0) << scout.output << robot->output();
     once.Keep(Path(store));
   }
-  // The agent of a robot.
+  // Returns the agent of a robot.
   std::unique_ptr<Process> Follow(const std::string& robot, const std::string& store,
                                   const Words& words, const std::string& log = "follower") {
     return Agent(
@@ -114,7 +115,7 @@ class RobotsTest : public ProgramsTest {
     double x_m = 0.0;
     double y_m = 0.0;
   };
-  // Where the robot was at each step, by its truth.
+  // Returns where the robot was at each step, by its truth.
   std::vector<Place> TruePlaces() {
     std::ifstream in(Path("truth.csv"));
     std::string line;
@@ -129,7 +130,7 @@ class RobotsTest : public ProgramsTest {
     }
     return places;
   }
-  // The robot is stopped, and its truth says that it has come to the end of kPath.
+  // Ends the robot, whose truth must say that it has come to the end of kPath.
   void EndAtThePathsEnd(Process& robot) {
     robot.Signal(SIGTERM);
     ASSERT_EQ(End(robot).status, 0) << robot.output();
@@ -147,7 +148,7 @@ class RobotsTest : public ProgramsTest {
     return value;
   }
 
-  const char* most_mps_ = kUnhurried_mps;  // of those that Serve puts on duty
+  const char* most_mps_ = kUnhurried_mps;  // of robots that Serve starts
 
  private:
   std::map<std::string, std::string> taught_;  // by its store

@@ -10,17 +10,17 @@
 
 namespace trailcast::soak {
 
-// Fetches a revision as any follower does, from whoever serves it, and compares it with what its
-// scout taught.
+// This fetches a revision as any follower does, from any member that serves it, and compares it
+// with what its scout taught.
 class Audit {
  public:
   Audit(route::RouteKey key, const std::vector<route::SegmentPiece>& taught, Clock::time_point now);
 
   void Handle(const exchange::Message& message, Clock::time_point now);
-  // What to publish.
+  // Returns what to publish.
   [[nodiscard]] std::vector<exchange::Message> Tick(Clock::time_point now);
   [[nodiscard]] bool Complete() const { return fetcher_.Complete(); }
-  // Segments that came otherwise than they were taught.
+  // Returns the segments that came otherwise than they were taught.
   [[nodiscard]] std::size_t wrong() const { return wrong_; }
 
  private:

@@ -12,17 +12,17 @@
 
 namespace trailcast::soak {
 
-// Three more robots in each cycle, which fetch the route while it is taught, and of which, once
-// they are at it, one is killed, one stopped and one cut off, and left so until the cycle's end.
-// Nobody mends them, and nobody else may notice: the cycle has to end as ever.
+// These are three more robots in each cycle, which fetch the route while it is taught. During that,
+// one is killed, one stopped and one cut off, until the cycle's end. They are not repaired, and no
+// other member may be affected: the cycle has to end as ever.
 class Casualties {
  public:
   Casualties(test::NetworkLab& lab, const std::filesystem::path& folder);
 
-  // The cycle's route, and where the robots' stores are.
+  // Takes the cycle's route, and where the robots' stores are.
   void Begin(std::string route, std::filesystem::path stores);
   void Handle(const exchange::Message& message);
-  // Takes away what is left of them. What did not come to be struck is a failure.
+  // Removes what is left of them. It is a failure if one of them was not struck.
   void End();
 
   [[nodiscard]] int struck() const { return struck_; }

@@ -13,14 +13,14 @@
 
 namespace trailcast::soak {
 
-// Routes of cycles before, which live on for a while.
+// These are routes of earlier cycles, which live on for a while.
 struct Retired {
   std::string name;
   route::RouteKey key;
 };
 
-// One route is taught and followed at once, then audited; the route of the cycle before is retired,
-// and the one before that deleted.
+// This teaches and follows one route at once, and then audits it. It retires the route of the cycle
+// before, and deletes the one before that.
 class Cycle {
  public:
   struct Outcome {
@@ -30,7 +30,7 @@ class Cycle {
     std::vector<std::string> failures;
   };
 
-  // All of it outlives the cycle. `live` is newest first, and has this cycle's route afterwards.
+  // All arguments outlive the cycle. `live` is newest first, and has this cycle's route afterwards.
   Cycle(const Errand& errand, Fleet& fleet, Ledger& ledger, exchange::RouteExchange& exchange,
         std::vector<Retired>& live);
 

@@ -18,16 +18,16 @@ enum class FaultKind { kKill, kCut, kPause, kLoss, kFullDisk, kAddress, kClock }
 
 struct FaultType {
   FaultKind kind;
-  Role victim;  // of kLoss and kFullDisk: the server
+  Role victim;  // the server for kLoss and kFullDisk
   [[nodiscard]] std::string Text() const;
 };
 
-// Deals all types of faults in an order drawn by the seed, again and again: every type comes up,
-// and as often as the others.
+// This deals all types of faults repeatedly, in an order drawn by the seed, so that every type
+// comes up as often as the others.
 class FaultDeck {
  public:
   explicit FaultDeck(std::uint64_t seed);
-  // The next one that `possible` accepts; those passed over keep their turn.
+  // Returns the next one that `possible` accepts. Types that are passed over keep their turn.
   template <typename Possible>
   std::optional<FaultType> Draw(const Possible& possible) {
     if (left_.empty()) Shuffle();
@@ -39,9 +39,9 @@ class FaultDeck {
     }
     return std::nullopt;
   }
-  // This type comes up no more.
+  // Removes this type.
   void Leave(FaultKind kind, Role victim);
-  // Of a uniform distribution.
+  // Draws from a uniform distribution.
   double Number(double from, double to) {
     return std::uniform_real_distribution<double>(from, to)(random_);
   }
@@ -53,20 +53,20 @@ class FaultDeck {
   std::deque<FaultType> left_;
 };
 
-// Carries them out, one after the other: something goes wrong, lasts a while, is mended, and the
-// next one waits until every process that runs has been heard again.
+// This carries them out, one after the other: a fault begins, lasts a while and is repaired, and
+// the next one waits until every process that runs has been heard again.
 class Faults {
  public:
   Faults(std::uint64_t seed, Fleet& fleet) : deck_(seed), fleet_(fleet) {}
 
-  // The server is not killed any more.
+  // Kills the server no more.
   void SpareServer();
   [[nodiscard]] bool spares_server() const { return spare_server_; }
-  // Looks at what it left, before it is started again.
+  // This inspects what the process left, before it is started again.
   void OnServerKilled(std::function<void()> look) { on_server_killed_ = std::move(look); }
-  // Nothing new goes wrong while held.
+  // No new fault begins while this is held.
   void Hold(bool held) { held_ = held; }
-  // Nothing is wrong, and nobody recovers.
+  // Returns whether there is no fault, and no process recovers from one.
   [[nodiscard]] bool calm() const { return stage_ == Stage::kCalm; }
 
   void Tick(Clock::time_point now);
@@ -76,7 +76,7 @@ class Faults {
     double seconds = 0.0;
   };
   [[nodiscard]] const std::vector<Recovery>& recoveries() const { return recoveries_; }
-  // What never recovered.
+  // Returns what never recovered.
   [[nodiscard]] std::vector<std::string> TakeFailures() { return std::exchange(failures_, {}); }
 
  private:

@@ -13,39 +13,40 @@ namespace trailcast::soak {
 
 enum class Role { kServer, kScout, kFollower };
 
-// What the robots are to do until the next one.
+// These are the robots' tasks until the next ones.
 struct Errand {
   std::string route;
   std::filesystem::path folder;  // their stores
-  std::uint64_t seed = 1;        // their errors and noise
+  std::uint64_t seed = 1;        // for their errors and noise
 };
 
-// A server with a disk of its own, a scout and followers, each at a host of its own on one network.
+// This is a server with a disk of its own, a scout and followers, each at a host of its own on one
+// network.
 class Fleet {
  public:
-  // `disk`: the server's folder, on a file system that nobody else writes to.
+  // `disk` is the server's folder, on a file system to which nothing else writes.
   Fleet(test::NetworkLab& lab, const std::filesystem::path& folder, std::filesystem::path disk);
 
   void StartServer();
-  // The scout teaches, the followers wait for the route and follow while it is taught.
+  // The scout teaches, and the followers wait for the route and follow while it is taught.
   void Begin(const Errand& errand);
-  // After a kill. The server has its store, a scout delivers what it had taught, a follower starts
-  // over.
+  // Starts a program after a kill. The server has its store, a scout delivers what it had taught,
+  // and a follower starts over.
   void Resume(Role role, Member& member);
 
   [[nodiscard]] Member& server() { return server_; }
   [[nodiscard]] Member& scout() { return scout_; }
   [[nodiscard]] std::vector<std::unique_ptr<Member>>& followers() { return followers_; }
-  // Those of the role that run at present.
+  // Returns the members of the role that run at present.
   [[nodiscard]] std::vector<Member*> Running(Role role);
 
   void Hear(const exchange::AgentStatus& status, Clock::time_point now);
-  // Those that run, and were not heard since then.
+  // Returns the members that run, and were not heard since then.
   [[nodiscard]] std::vector<std::string> SilentSince(Clock::time_point then);
 
   void Cut(const Member& member) { lab_.Cut(member.host()); }
   void Join(const Member& member) { lab_.Join(member.host()); }
-  // Of the packets that each host receives.
+  // Drops this share of the packets that each host receives.
   void Lose(double share);
   void FillDisk();
   void ClearDisk();

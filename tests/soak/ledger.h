@@ -11,30 +11,30 @@
 
 namespace trailcast::soak {
 
-// Everything that servers ever confirmed, of revisions that no operator has deleted since: from
-// then on it must be on the server's disk, byte for byte.
+// This is everything that servers ever acknowledged, of revisions that no operator has deleted
+// since. It must be on the server's disk from then on, byte for byte.
 class Ledger {
  public:
   void Note(const exchange::Receipt& receipt);
-  // What its scout taught, read from the scout's own store.
+  // Records what its scout taught, read from the scout's own store.
   void NoteTaught(const route::RouteKey& key, std::vector<route::SegmentPiece> pieces);
-  // An operator asks for its deletion: from now on it need not be there.
+  // Notes that an operator asks for its deletion: from now on it need not be there.
   void Forget(const route::RouteKey& key);
-  // The server said that it is deleted: from now on it must not be there.
+  // Notes that the server said that it is deleted: from now on it must not be there.
   void NoteDeleted(const route::RouteKey& key) { deleted_.insert(key); }
 
   [[nodiscard]] const std::vector<route::SegmentPiece>& TaughtOf(const route::RouteKey& key) const {
     return taught_.at(key);
   }
 
-  // A line for each receipted segment that the store does not have, has damaged, or has otherwise
-  // than it was taught. What was never receipted may be missing.
+  // Returns a line for each acknowledged segment that the store lacks, has damaged, or has
+  // otherwise than it was taught. A segment that was never acknowledged may be missing.
   [[nodiscard]] std::vector<std::string> LostIn(store::RouteStore& store);
 
-  // A line for each deleted revision of which the store still, or again, has segments.
+  // Returns a line for each deleted revision of which the store still, or again, has segments.
   [[nodiscard]] std::vector<std::string> UndeletedIn(store::RouteStore& store) const;
 
-  // Segments receipted so far, and how often one of them was looked for.
+  // These are the segments acknowledged so far, and how often one of them was checked.
   [[nodiscard]] std::size_t receipted() const { return receipted_; }
   [[nodiscard]] std::size_t checked() const { return checked_; }
 

@@ -15,43 +15,43 @@ namespace trailcast::soak {
 using Clock = std::chrono::steady_clock;
 using Words = std::vector<std::string>;
 
-// Gives the programs clocks that can be stepped (package libfaketime).
+// This gives the programs clocks that can be stepped (package libfaketime).
 inline constexpr const char* kClockLibrary =
     "/usr/lib/x86_64-linux-gnu/faketime/libfaketimeMT.so.1";
 
-// One program at a host of its own: started, killed and started again.
+// This is one program at a host of its own, which can be started, killed and started again.
 class Member {
  public:
   // `name` is the program's name in the fleet, too. Logs go to `folder`, one for each start.
   Member(test::NetworkLab& lab, int host, std::string name, std::filesystem::path folder);
 
-  // `program` is one of ours.
+  // `program` is one of this project's.
   void Start(const std::string& program, const Words& words);
   void Kill();
-  // Nobody waits for it any more.
+  // Ends waiting for it.
   void Forget() { process_.reset(); }
 
-  // Started, not killed, not ended by itself.
+  // Returns whether it was started, and was neither killed nor ended by itself.
   [[nodiscard]] bool running();
-  // The exit status, once, of a program that ended by itself.
+  // Returns the exit status of a program that ended by itself, once.
   [[nodiscard]] std::optional<int> TakeEnded();
-  // Ended as asked, with what status; nothing if not within the bound.
+  // Ends the program and returns its status, or nothing if it does not end within the bound.
   [[nodiscard]] std::optional<int> Stop();
-  // Takes the host's address away; another one comes later.
+  // Removes the host's address; another one comes later.
   void LoseAddress();
   void TakeOtherAddress();
-  // Steps the wall clock of the host's programs, not the time by which they wait.
+  // Steps the wall clock of the host's programs, but not the clock by which they wait.
   void SetClockAhead(std::chrono::seconds by) const;
   void Signal(int signal) const { process_->Signal(signal); }
   [[nodiscard]] pid_t pid() const { return process_->pid(); }
 
-  // Its status was received.
+  // Notes that its status was received.
   void NoteHeard(Clock::time_point at) { heard_at_ = at; }
   [[nodiscard]] Clock::time_point heard_at() const { return heard_at_; }
 
   [[nodiscard]] int host() const { return host_; }
   [[nodiscard]] const std::string& name() const { return name_; }
-  // The log's last lines.
+  // Returns the log's last lines.
   [[nodiscard]] std::string LastWords() const;
 
  private:

@@ -4,8 +4,8 @@
 
 namespace trailcast::soak {
 
-// A small file system of its own in memory, which can be filled without harm. This process alone
-// and its children see it, and it goes with them. Needs root.
+// This is a small file system in memory, which can be filled without harm. Only this process and
+// its children see it, and it disappears with them. It needs root.
 class PrivateDisk {
  public:
   static constexpr int kMegabytes = 64;

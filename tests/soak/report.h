@@ -12,7 +12,7 @@
 
 namespace trailcast::soak {
 
-// What was observed, added up.
+// This adds up what was observed.
 struct Report {
   std::uint64_t seed = 0;
   std::chrono::duration<double> took{};

@@ -23,16 +23,16 @@ struct SoakOptions {
   std::chrono::minutes length{120};
   std::uint64_t seed = 1;
   std::filesystem::path folder;  // logs and stores
-  std::filesystem::path csv;     // the server's vitals, a line a second; empty: not written
+  std::filesystem::path csv;     // the server's vitals, one line a second; empty if not written
 };
 
-// Teach, follow, retire, again and again, while things go wrong. In the first half of the time the
-// server is killed like everybody else, in the second half it lives on, so that its memory can be
-// judged.
+// This teaches, follows and retires repeatedly, while things go wrong. In the first half of the
+// time the server is killed like all other members. In the second half it lives on, so that its
+// memory can be judged.
 class Soak {
  public:
   explicit Soak(const SoakOptions& options);
-  // Until the time is over, and the cycle that runs then, or `stop` says so.
+  // Runs until the time is over and the cycle that runs then has ended, or until `stop`.
   [[nodiscard]] Report Run(const std::function<bool()>& stop);
 
  private:
@@ -54,10 +54,10 @@ class Soak {
   std::unique_ptr<exchange::RouteExchange> exchange_;
   std::vector<Retired> live_;
   Clock::time_point sample_at_{};
-  std::vector<Vitals> sampled_;  // each second, of the server that is not killed any more
+  std::vector<Vitals> sampled_;  // each second of the server that is no longer killed
   Report report_;
   Clock::time_point began_ = Clock::now();
-  Cycle* cycle_ = nullptr;  // the one that runs
+  Cycle* cycle_ = nullptr;  // the present cycle
 };
 
 }  // namespace trailcast::soak

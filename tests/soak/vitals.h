@@ -8,27 +8,27 @@
 
 namespace trailcast::soak {
 
-// What a process has of its machine, from /proc.
+// This is what a process has of its machine, from /proc.
 struct Vitals {
   std::uint64_t memory_kb = 0;  // resident
   int threads = 0;
   int descriptors = 0;
 };
 
-// Nothing when the process is gone.
+// Returns nothing when the process is gone.
 [[nodiscard]] std::optional<Vitals> VitalsOf(pid_t pid);
 
-// From the first to the last quarter of the samples: medians.
+// This is from the first to the last quarter of the samples, by their medians.
 struct Growth {
   Vitals first;
   Vitals last;
-  [[nodiscard]] double memory_share() const;  // 0.05: five percent more
+  [[nodiscard]] double memory_share() const;  // 0.05 is five percent more
 };
 
-// Nothing when there are fewer than eight samples: too few to tell growth from chance.
+// Returns nothing for fewer than eight samples, which are too few to tell growth from chance.
 [[nodiscard]] std::optional<Growth> GrowthOf(std::span<const Vitals> samples);
 
-// Memory within 5 %, and no more threads and descriptors than at first.
+// Returns whether memory is within 5 %, with no more threads and descriptors than at first.
 [[nodiscard]] bool IsFlat(const Growth& growth);
 
 }  // namespace trailcast::soak

@@ -16,18 +16,19 @@
 
 namespace peer {
 
-// The QoS columns of a topic's row in docs/reference/protocol.md; all topics are reliable.
+// These are the QoS columns of a topic's row in docs/reference/protocol.md. All topics are
+// reliable.
 struct TopicQos {
   bool transient_local = false;
-  int keep_last = 0;  // 0: keep all
-  int lease_s = 0;    // automatic liveliness; 0: none
+  int keep_last = 0;  // 0 keeps all
+  int lease_s = 0;    // automatic liveliness; 0 is none
 };
 inline constexpr TopicQos kAnnounced{.transient_local = true, .keep_last = 1};
 inline constexpr TopicQos kAgents{.transient_local = true, .keep_last = 1, .lease_s = 3};
 inline constexpr TopicQos kAsked{.keep_last = 16};
 inline constexpr TopicQos kStreamed{};
 
-// A participant of a DDS domain on the loopback interface, and nowhere else.
+// This is a participant of a DDS domain on the loopback interface, and nowhere else.
 class Bus {
  public:
   explicit Bus(std::uint32_t domain);
@@ -43,7 +44,7 @@ class Bus {
                                            eprosima::fastdds::dds::TypeSupport type,
                                            const TopicQos& qos);
   void Close(eprosima::fastdds::dds::DataReader* reader);
-  // Until one of the readers has something to take, or so long.
+  // Waits until one of the readers has something to take, or for so long.
   void Wait(std::chrono::milliseconds max_wait);
 
  private:
@@ -56,7 +57,8 @@ class Bus {
   eprosima::fastdds::dds::WaitSet wait_set_;
 };
 
-// A topic's writer for samples of its type. `PubSub` is what the generator made beside the type.
+// This is a topic's writer for samples of its type. `PubSub` is the generated class beside the
+// type.
 template <typename PubSub>
 class Outlet {
  public:
@@ -67,7 +69,7 @@ class Outlet {
   void Put(typename PubSub::type sample) {
     if (!writer_->write(&sample)) throw std::runtime_error("cannot write to " + topic_);
   }
-  // Somebody reads the topic, and every reader that is known has all that was put.
+  // Returns whether the topic has a reader, and every known reader has all that was put.
   bool IsHeard() {
     eprosima::fastdds::dds::PublicationMatchedStatus matched;
     writer_->get_publication_matched_status(matched);
@@ -80,7 +82,7 @@ class Outlet {
   eprosima::fastdds::dds::DataWriter* writer_;
 };
 
-// A topic's reader.
+// This is a topic's reader.
 template <typename PubSub>
 class Inlet {
  public:
@@ -91,7 +93,7 @@ class Inlet {
   Inlet(const Inlet&) = delete;
   Inlet& operator=(const Inlet&) = delete;
 
-  // What came since the last call.
+  // Returns what came since the last call.
   std::vector<typename PubSub::type> Take() {
     std::vector<typename PubSub::type> samples;
     typename PubSub::type sample;

@@ -12,14 +12,14 @@ namespace peer {
 
 using Clock = std::chrono::steady_clock;
 
-// By when a command has what it wants, or fails.
+// A command has its answer within this time, or fails.
 inline constexpr std::chrono::seconds kPatience{30};
-// What is lost is asked for, or said, again so often.
+// A lost message is repeated so often.
 inline constexpr std::chrono::milliseconds kAgain{500};
 
 inline constexpr const char* kName = "fast-dds";
 
-// Says `say` at once and every so often, hears by `heard` what came, until that is enough.
+// Calls `say` at once and repeatedly, and passes what came to `heard`, until that returns true.
 template <typename Say, typename Heard>
 void Until(Bus& bus, const std::string& wanted, const Say& say, const Heard& heard) {
   const auto deadline = Clock::now() + kPatience;
@@ -34,19 +34,19 @@ void Until(Bus& bus, const std::string& wanted, const Say& say, const Heard& hea
   }
 }
 
-// The server's routes, all of them or those of a name.
+// Asks for the server's routes, all of them or those of a name.
 [[nodiscard]] std::vector<trailcast::wire::CatalogRoute> List(Bus& bus, const std::string& name);
 
-// A complete route with all its segments, in order, each found to be what its digest says, and all
-// together what the manifest says.
+// This is a complete route with all its segments, in order. Each has the bytes of its digest, and
+// all together match the manifest.
 struct Fetched {
   trailcast::wire::CatalogRoute route;
   std::vector<trailcast::wire::SegmentPiece> pieces;
 };
 [[nodiscard]] Fetched Fetch(Bus& bus, const std::string& name);
 
-// A server took the same segments for a new route of ours, and confirmed that they are on its disk.
-// What was published.
+// Publishes the same segments as a new route of its own, and waits until a server has acknowledged
+// that they are on its disk. Returns what was published.
 [[nodiscard]] trailcast::wire::CatalogRoute Publish(Bus& bus, const Fetched& fetched,
                                                     const std::string& name);
 

@@ -10,7 +10,7 @@ namespace peer {
 using Digest = std::array<std::uint8_t, 32>;
 
 [[nodiscard]] Digest Sha256(const std::vector<std::uint8_t>& bytes);
-// Of a route: over the digests of its segments, in order.
+// Returns a route's digest, over the digests of its segments, in order.
 [[nodiscard]] Digest Manifest(const std::vector<Digest>& digests);
 [[nodiscard]] std::string Hex(const Digest& digest);
 

@@ -13,7 +13,7 @@ namespace robot {
 
 namespace dds = eprosima::fastdds::dds;
 
-// How a ROS 2 node over Fast DDS is on the network by its environment (rmw_fastrtps).
+// This is how a ROS 2 node over Fast DDS is on the network by its environment (rmw_fastrtps).
 enum class Setting {
   kDefault,         // all interfaces, multicast, shared memory
   kLocalhostOnly,   // ROS_LOCALHOST_ONLY=1
@@ -21,8 +21,8 @@ enum class Setting {
   kDataSharing,     // RMW_FASTRTPS_USE_QOS_FROM_XML=1, and profiles that share data where they can
 };
 
-// A participant with topics as ROS 2 names them and with the QoS of its sensor drivers: reliable,
-// volatile, the last ones kept. Throws std::runtime_error.
+// This is a participant with topics as ROS 2 names them and with the QoS of its sensor drivers:
+// reliable, volatile, the last ones kept. It throws std::runtime_error.
 class Node {
  public:
   Node(std::uint32_t domain, Setting setting);
@@ -30,7 +30,7 @@ class Node {
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
-  // `topic` as in ROS 2, "/robot1/odom".
+  // `topic` is as in ROS 2, "/robot1/odom".
   dds::DataWriter* Write(const std::string& topic, dds::TypeSupport type);
   dds::DataReader* Read(const std::string& topic, dds::TypeSupport type);
 

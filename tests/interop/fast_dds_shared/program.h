@@ -7,14 +7,15 @@
 
 namespace fast_dds {
 
-// What Fast DDS was asked to make; throws if it made none.
+// Returns what Fast DDS was asked to make, and throws if it made none.
 template <typename Pointer>
 Pointer Made(Pointer entity, const std::string& what) {
   if (entity == nullptr) throw std::runtime_error("Fast DDS made no " + what);
   return entity;
 }
 
-// For main(): what `run` makes of the command line's words; 1 and a line of what it threw.
+// Returns main()'s exit status: that of `run` with the command line's words, or 1, with a line of
+// what it threw.
 template <typename Run>
 int StatusOf(const Run& run, int argc, char** argv) {
   try {

@@ -11,7 +11,8 @@
 
 namespace trailcast::test {
 
-// On which port a console that starts says to listen; 0, and a failure: it does not.
+// Returns on which port a console that starts says that it listens, or 0, and a failure, if it does
+// not.
 inline int ConsolesPort(Process& console) {
   const std::string said = "://localhost:";
   const bool listens = console.WaitForOutput(said);
@@ -20,21 +21,21 @@ inline int ConsolesPort(Process& console) {
   return listens ? std::stoi(output.substr(output.find(said) + said.size())) : 0;
 }
 
-// Where a picture of the page goes, for people to look at.
+// Returns where a picture of the page goes, for people to look at.
 inline std::filesystem::path Shot(const std::string& name) {
   const auto shots = std::filesystem::path(ProgramsDir()).parent_path() / "console";
   std::filesystem::create_directories(shots);
   return shots / (name + ".png");
 }
 
-// Ten presses of the right arrow key, as good as a whole slide.
+// These are ten presses of the right arrow key, which are as good as a whole slide.
 inline const std::string kSlide = [] {
   std::string right;
   for (int i = 0; i < 10; ++i) right += "\xEE\x80\x94";
   return right;
 }();
 
-// Robots, and a console over HTTP.
+// These are robots, and a console over HTTP.
 class ConsoleFleetTest : public RobotsTest {
  protected:
   using json = nlohmann::json;

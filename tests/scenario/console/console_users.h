@@ -16,16 +16,16 @@ namespace trailcast::test {
 
 inline constexpr const char* kPassword = "correct horse";
 
-// A console with users, who reach it over TLS.
+// This is a console with users, who reach it over TLS.
 class ConsoleUsersTest : public ConsoleFleetTest {
  protected:
-  // Of OpenSSL, which says farewell to a console that has hung up.
+  // OpenSSL raises SIGPIPE when it says farewell to a console that has hung up.
   void SetUp() override { std::signal(SIGPIPE, SIG_IGN); }
 
   Words UsersWords(const Words& words) const {
     return With(With({"users"}, words), {"--users", Path("users")});
   }
-  // `input`: what comes on its standard input.
+  // `input` comes on its standard input.
   Ended Users(const Words& words, const std::string& input = kPassword) {
     std::string line = "printf '%s\\n' \"$0\" | \"$@\"";
     Words argv{"/bin/sh", "-c", line, input, ProgramsDir() + "/trailcast-console"};
@@ -68,12 +68,12 @@ class ConsoleUsersTest : public ConsoleFleetTest {
   Replied LogIn(const std::string& user, const std::string& password) {
     return Post("/api/log-in", {}, {{"user", user}, {"password", password}});
   }
-  // As its page has them, logged in.
+  // Returns the headers of a user who is logged in, as the page sends them.
   httplib::Headers As(const std::string& user) {
     return {{"Cookie", LogIn(user, kPassword).cookie},
             {"Origin", "https://localhost:" + std::to_string(port_)}};
   }
-  // Their name and password, in the page.
+  // Types their name and password into the page.
   static bool LogInPage(Browser& browser, const std::string& user,
                         const std::string& password = kPassword) {
     const std::string enter = "\xEE\x80\x87";

@@ -15,7 +15,8 @@
 
 namespace trailcast::test {
 
-// Debian's Chromium, driven over WebDriver (HTTP and JSON), with a profile of its own in `folder`.
+// This is Debian's Chromium, driven over WebDriver (HTTP and JSON), with a profile of its own in
+// `folder`.
 class Browser {
  public:
   using Json = nlohmann::json;
@@ -64,7 +65,7 @@ class Browser {
   [[nodiscard]] std::string log() const { return driver_->output(); }
 
   void Open(const std::string& url) { (void)Ask("POST", session_ + "/url", {{"url", url}}); }
-  // As a screen of this size shows it; `dark` as the person's preference.
+  // Shows the page as on a screen of this size. `dark` is the person's preference.
   void Look(int width_px, int height_px, bool dark = false) {
     (void)DevTools("Emulation.setDeviceMetricsOverride", {{"width", width_px},
                                                           {"height", height_px},
@@ -74,12 +75,12 @@ class Browser {
         "Emulation.setEmulatedMedia",
         {{"features", {{{"name", "prefers-color-scheme"}, {"value", dark ? "dark" : "light"}}}}});
   }
-  // From now on, what is asked for at such addresses ('*' is anything) does not come.
+  // From now on, requests for such addresses ('*' is anything) fail.
   void Block(const std::vector<std::string>& addresses) {
     DevTools("Network.enable", Json::object());
     DevTools("Network.setBlockedURLs", {{"urls", addresses}});
   }
-  // What a script returns.
+  // Returns what a script returns.
   Json Run(const std::string& script) {
     return Ask("POST", session_ + "/execute/sync", {{"script", script}, {"args", Json::array()}});
   }
@@ -90,8 +91,8 @@ class Browser {
   [[nodiscard]] bool WaitForText(const std::string& text) {
     return WaitUntil([&] { return Text().find(text) != std::string::npos; });
   }
-  // As a person's click: where the element is, if nothing lies above it. Until then, and while it
-  // moves away under the pointer, it is tried again.
+  // Clicks as a person does: where the element is, if nothing lies above it. Until then, and while
+  // it moves away under the pointer, the click is repeated.
   [[nodiscard]] bool Click(const std::string& xpath) {
     const auto gives_up = std::chrono::steady_clock::now() + test::kLongEnough;
     do {
@@ -105,13 +106,13 @@ class Browser {
     } while (std::chrono::steady_clock::now() < gives_up);
     return false;
   }
-  // Once the element is there.
+  // Returns the element once it is there.
   [[nodiscard]] bool Type(const std::string& xpath, const std::string& keys) {
     std::string element;
     if (!WaitUntil([&] { return !(element = Find(xpath)).empty(); })) return false;
     return Ask("POST", session_ + "/element/" + element + "/value", {{"text", keys}}).is_null();
   }
-  // Whatever has the focus sees the key go down, and up again after so long.
+  // Presses the key on whatever has the focus, and releases it after so long.
   [[nodiscard]] bool HoldKey(const std::string& key, int ms) {
     const Json held = {{{"type", "keyDown"}, {"value", key}},
                        {{"type", "pause"}, {"duration", ms}},
@@ -124,13 +125,13 @@ class Browser {
     std::ofstream(file, std::ios::binary) << Decoded(shot.get<std::string>());
   }
 
-  // A command of the DevTools protocol.
+  // Sends a command of the DevTools protocol.
   Json DevTools(const std::string& command, const Json& parameters = Json::object()) {
     return Ask("POST", session_ + "/goog/cdp/execute", {{"cmd", command}, {"params", parameters}});
   }
 
  private:
-  // As the standard calls an element in a script's arguments.
+  // This is what the standard calls an element in a script's arguments.
   static constexpr const char* kElement = "element-6066-11e4-a52e-4f735466cecf";
 
   std::string Find(const std::string& xpath) {
@@ -138,7 +139,7 @@ class Browser {
     if (!found.is_object() || found.contains("error")) return "";
     return found.begin()->get<std::string>();
   }
-  // Its value; an object with an error where that failed.
+  // Returns its value, or an object with an error if that failed.
   Json Ask(const std::string& method, const std::string& path, const Json& body) {
     const auto reply = method == "POST"  ? client_->Post(path, body.dump(), "application/json")
                        : method == "GET" ? client_->Get(path)

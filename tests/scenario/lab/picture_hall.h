@@ -13,7 +13,7 @@
 
 namespace trailcast::trial::test {
 
-// A hall of 9 m x 9 m with pictures all round, no two alike.
+// This is a hall of 9 m x 9 m with pictures all round, no two alike.
 inline std::shared_ptr<const sim::World> PictureHall() {
   constexpr float kHalf_m = 4.5F;
   sim::SceneBuilder builder;
@@ -43,7 +43,7 @@ inline std::shared_ptr<const sim::World> PictureHall() {
   return world ? *world : nullptr;
 }
 
-// Once round it, with four bends, back to the start.
+// This leads once round it, with four bends, back to the start.
 inline sim::Polyline RoundTheHall() {
   return {{0.0, -1.5}, {1.2, -1.5}, {1.5, -1.2},  {1.5, 1.2},   {1.2, 1.5},
           {-1.2, 1.5}, {-1.5, 1.2}, {-1.5, -1.2}, {-1.2, -1.5}, {0.0, -1.5}};

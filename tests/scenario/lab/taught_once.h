@@ -11,20 +11,20 @@
 
 namespace trailcast::test {
 
-// A scout's store that several tests, each a process of its own, begin with: kept in the build's
-// folder, for as long as the programs that taught it are those of this build.
+// This is a scout's store that several tests, each a process of its own, begin with. It is kept in
+// the build's folder for as long as the programs that taught it are those of this build.
 class TaughtOnce {
  public:
-  // `what` was taught, in words; as long as they are the same, the store is.
+  // `what` was taught, in words. As long as they are the same, the store is.
   explicit TaughtOnce(const std::string& what) : file_(Folder() / (Hash(what) + ".db")) {}
 
-  // False: nobody has taught that yet.
+  // Returns false if that has not been taught yet.
   [[nodiscard]] bool CopyTo(const std::filesystem::path& store) const {
     std::error_code failed;
     return std::filesystem::copy_file(file_, store,
                                       std::filesystem::copy_options::overwrite_existing, failed);
   }
-  // Of an agent that has ended. Two tests that have taught the same keep the same.
+  // Keeps the store of an agent that has ended. Two tests that have taught the same keep the same.
   void Keep(const std::filesystem::path& store) const {
     if (std::filesystem::exists(store.string() + "-wal")) return;
     if (!std::filesystem::exists(Folder())) {

@@ -21,7 +21,7 @@ inline sim::Place Open(const std::string& name) {
   return *place;
 }
 
-// The beginning of a place's own path, taught there.
+// This is the beginning of a place's own path, taught there.
 inline Taught TeachIn(const sim::Place& place, double length_m, const sim::CameraModel& camera,
                       std::uint64_t seed) {
   TrialSetup setup;
@@ -40,10 +40,10 @@ struct Ending {
   double driven_m = 0.0;
 };
 
-// Looks on, frame by frame, and may shove the robot.
+// This watches frame by frame, and may push the robot.
 using Bystander = std::function<void(sim::Judge& truth, const agent::ReplayStep& step)>;
 
-// Where a follower sets out, if not at the start of the path, and in which gear.
+// This is where a follower starts, if not at the start of the path, and in which gear.
 struct Outset {
   std::optional<motion::Pose2> start{};
   bool backwards = false;

@@ -21,7 +21,8 @@
 
 namespace trailcast::test {
 
-// As large as a segment of some fifty features, with the digest that a server expects.
+// Returns a piece as large as a segment of some fifty features, with the digest that a server
+// expects.
 [[nodiscard]] inline route::SegmentPiece TaughtPiece(std::uint32_t scout, std::uint32_t index) {
   route::SegmentPiece piece =
       PieceOf(KeyNumber(scout), index, 5000, static_cast<std::uint8_t>(scout));
@@ -29,7 +30,7 @@ namespace trailcast::test {
   return piece;
 }
 
-// Teaches a segment every so often until Finish, on a thread of its own.
+// This teaches a segment every so often until Finish, on a thread of its own.
 class KillScout {
  public:
   KillScout(std::uint32_t number, const std::string& tag)
@@ -41,7 +42,7 @@ class KillScout {
   void Finish() { finish_ = true; }
   [[nodiscard]] bool delivered() const { return delivered_; }
   [[nodiscard]] std::uint32_t taught() const { return taught_; }
-  // Indices receipted since the last call.
+  // Returns the indices acknowledged since the last call.
   std::vector<SegmentIndex> TakeReceipted() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(receipted_, {});
@@ -91,7 +92,7 @@ class KillScout {
       }
       if (finish_ && !finished) sender.Update(Info(route::RouteState::kComplete));
       finished = finish_;
-      // What cannot be sent is asked for.
+      // A piece that cannot be sent is asked for.
       (void)exchange::PublishAll(**exchange, sender.Tick(Clock::now()));
       const auto receipted = sender.TakeNewlyReceipted();
       const std::scoped_lock lock(mutex_);
@@ -114,7 +115,7 @@ class KillScout {
   std::jthread thread_;
 };
 
-// Several of them, and what servers told them.
+// These are several of them, and what servers told them.
 class KillScoutsTest : public testing::Test {
  protected:
   void StartScouts(std::uint32_t count, const std::string& tag) {
@@ -127,7 +128,7 @@ class KillScoutsTest : public testing::Test {
     for (const auto& scout : scouts_) receipts += scout->receipts();
     return receipts;
   }
-  // False if that takes too long.
+  // Returns false if that takes too long.
   template <typename Condition>
   static bool Await(const Condition& condition) {
     const auto deadline = std::chrono::steady_clock::now() + test::kLongEnough;
@@ -136,7 +137,7 @@ class KillScoutsTest : public testing::Test {
     }
     return condition();
   }
-  // All that was receipted is in the store, byte for byte.
+  // Returns whether all that was acknowledged is in the store, byte for byte.
   void ExpectReceiptedIsHeld(Result<std::unique_ptr<store::RouteStore>> store) {
     ASSERT_TRUE(store) << store.error().message;
     for (std::uint32_t i = 0; i < scouts_.size(); ++i) {

@@ -9,13 +9,13 @@
 
 namespace trailcast::test {
 
-// A fleet with keys: server, a scout "robot1", a follower "robot2", an operator "desk" and an
-// observer "guest".
+// This is a fleet with keys: a server, a scout "robot1", a follower "robot2", an operator "desk"
+// and an observer "guest".
 class SecuredFleetTest : public ProgramsTest {
  protected:
   using Role = security::Role;
   static security::Time Now() { return std::chrono::system_clock::now(); }
-  // Members' keys are so old, for those whose clocks are behind, and hold for thirty days more.
+  // Members' keys are this old, for members whose clocks are behind, and hold for thirty days more.
   static constexpr int kAge_days = 20;
   static security::Time LongAgo() { return Now() - std::chrono::hours(24 * kAge_days); }
 
@@ -25,7 +25,7 @@ class SecuredFleetTest : public ProgramsTest {
   [[nodiscard]] std::string Keys(const std::string& name) const {
     return (authority_.folder() / "members" / name).string();
   }
-  // The program as that member.
+  // Runs the program as that member.
   std::unique_ptr<Process> StartAs(const std::string& keys, const std::string& program,
                                    const Words& words, const std::string& log) {
     return Start(program, With({"--security", keys}, words), log);
@@ -42,7 +42,7 @@ class SecuredFleetTest : public ProgramsTest {
     return RunAs(keys, "trailcast-agent",
                  With(TeachWords(Walk("taught", kTaughtFrames), store), {"--server"}));
   }
-  // Gets the route that robot1 taught into a store of its own.
+  // Fetches the route that robot1 taught into a store of its own.
   Words FetchWords(const std::string& store) {
     return {"fetch", "--route", "hall", "--store", Path(store), "--wait", "15"};
   }

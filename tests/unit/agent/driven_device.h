@@ -11,18 +11,18 @@
 
 namespace trailcast::test {
 
-// A robot on the walk's straight path that drives as fast as it is told. Its frames show where it
-// is, at 30 Hz of its own time, which runs three times as fast as everybody's.
+// This is a robot on the walk's straight path that drives as fast as it is commanded. Its frames
+// show where it is, at 30 Hz of its own time, which runs three times as fast as real time.
 class DrivenDevice : public agent::RobotDevice {
  public:
   std::atomic<double> along_m = 0.0;
-  // As far as its wheels go, for the time being.
+  // The robot goes no further than this for the time being.
   std::atomic<double> wall_m = 1e9;
 
   Result<std::optional<agent::Observation>> Next() override {
     std::this_thread::sleep_until(due_);
     due_ = std::max(due_, std::chrono::steady_clock::now()) + kFrame;
-    // The command counts for a frame; pictures are a frame of the walk apart, odometry as well.
+    // The command counts for a frame. Pictures and odometry are a frame of the walk apart.
     along_m = std::min<double>(along_m + std::max(0.0, told_.linear_mps) / kRate_hz, wall_m);
     const int picture = static_cast<int>(std::lround(along_m / kStep_m));
     agent::Observation observation;

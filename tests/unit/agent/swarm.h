@@ -16,8 +16,8 @@
 
 namespace trailcast::test {
 
-// A server, scouts and followers in one process, each with a store of its own in a temporary
-// folder, on a bus without middleware.
+// These are a server, scouts and followers in one process, each with a store of its own in a
+// temporary folder, on a bus without middleware.
 class Swarm {
  public:
   ~Swarm() { StopServer(); }

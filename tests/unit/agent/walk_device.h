@@ -8,18 +8,18 @@
 
 namespace trailcast::test {
 
-// A robot that walks straight on, whatever it is told; notes what it was told.
+// This is a robot that walks straight on whatever it is commanded, and notes the commands.
 class WalkDevice : public agent::RobotDevice {
  public:
   explicit WalkDevice(int frames) : frames_(frames) {}
 
-  // Called before each frame with its number; an error is the camera's.
+  // This is called before each frame with its number. An error is the camera's.
   std::function<Result<void>(int)> before_frame = [](int) { return Result<void>{}; };
-  // What its odometry says with a frame.
+  // This is its odometry with a frame.
   std::function<motion::Pose2(int)> odometry = [](int frame) {
     return motion::Pose2{0.02 * frame, 0.0, 0.0};
   };
-  std::vector<motion::ImuSample> imu;  // what its IMU says with each frame; nothing: it has none
+  std::vector<motion::ImuSample> imu;  // its IMU's samples with each frame; empty without an IMU
   std::vector<motion::VelocityCommand> told;
   int next = 0;
   bool blind = false;  // the lens is covered

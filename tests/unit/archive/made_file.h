@@ -24,8 +24,8 @@ inline void WriteFile(const std::filesystem::path& file, const route::Bytes& byt
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
 }
 
-// A route file made field by field, as somebody would who means to deceive: sizes and checksum are
-// right whatever the fields say.
+// This is a route file made field by field, as an attacker would: sizes and checksum are right
+// whatever the fields say.
 struct MadeFile {
   struct Frame {
     std::uint32_t index = 0;

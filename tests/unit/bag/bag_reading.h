@@ -28,7 +28,7 @@ struct Read {
   bool operator==(const Read&) const = default;
 };
 
-// All messages of a topic, by its name.
+// Returns all messages of a topic, by its name.
 inline std::vector<Read> ReadAll(Bag& bag, const std::string& name) {
   std::vector<Read> all;
   const auto topic = std::find_if(bag.topics().begin(), bag.topics().end(),

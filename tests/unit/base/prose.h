@@ -47,13 +47,14 @@ inline constexpr Opening kDocumentOpenings[] = {{"Of"},   {"Those"},   {"Who"}, 
 inline constexpr Opening kCommentOpenings[] = {
     {"Of"}, {"Those"}, {"Who"}, {"Whose"}, {"Whom"}, {"Whoever"}, {"Nor"}, {"What"}, {"As", true}};
 
-// Paragraphs, and items of lists, each as one line of text without code and links' targets.
+// These are paragraphs, and items of lists, each as one line of text without code and links'
+// targets.
 struct Paragraph {
   int number = 0;
   std::string text;
 };
 
-// `text` without code, targets of links, emphasis, and the mark of a list's item.
+// Returns `text` without code, targets of links, emphasis, and the mark of a list's item.
 inline std::string Prose(const std::string& text) {
   std::string prose;
   bool target = false;
@@ -95,7 +96,7 @@ inline bool BeginsASentence(std::string_view text, std::size_t at) {
                      std::string_view(".!?:").find(text[at - 2]) != std::string_view::npos);
 }
 
-// The sentence that begins at `at`, without its full stop.
+// Returns the sentence that begins at `at`, without its full stop.
 inline std::string_view SentenceAt(std::string_view text, std::size_t at) {
   std::size_t end = at;
   while (end + 1 < text.size() && !(text[end + 1] == ' ' && BeginsASentence(text, end + 2))) ++end;

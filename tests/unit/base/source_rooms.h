@@ -9,7 +9,7 @@
 
 #include "tests/support/places.h"
 
-// The sources of libraries and programs, read as text: which room each line is in, what it
+// This reads the sources of libraries and programs as text: which room each line is in, and what it
 // includes.
 namespace trailcast {
 

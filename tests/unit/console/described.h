@@ -8,17 +8,17 @@
 
 namespace trailcast::console {
 
-// The console's description of itself, openapi.yaml, as JSON. It reads what that file has of YAML:
-// maps and lists, in blocks and within a line, quotes, and texts over several lines.
+// This is the console's description of itself, openapi.yaml, as JSON. It reads what that file has
+// of YAML: maps and lists, in blocks and within a line, quotes, and texts over several lines.
 [[nodiscard]] nlohmann::json ReadDescription(const std::string& yaml);
 
-// What of an answer is otherwise than described, a line each: a path, method or status that is not
-// there; a field that is not, is lacking, or is of another type.
+// Returns what in an answer differs from the description, one line each: a path, method or status
+// that does not exist; a field that does not exist, is missing, or has another type.
 [[nodiscard]] std::vector<std::string> UnlikeDescribed(const nlohmann::json& description,
                                                        const httplib::Request& request,
                                                        const httplib::Response& response);
 
-// Holds each answer that this client gets against the console's own description.
+// Checks each answer that this client gets against the console's own description.
 void ExpectAsDescribed(httplib::Client& client);
 
 }  // namespace trailcast::console

@@ -38,8 +38,8 @@ inline dds::Ros2Image WalkPicture(SensorTime stamp, int frame) {
           .data = picture.pixels};
 }
 
-// A robot, and the clock by which it is driven, which stands unless the test lets time pass: of
-// both, the device has made what it makes when a call returns, however busy the machine is.
+// This is a robot, and the clock by which it is driven, which stands unless the test lets time
+// pass. The device has handled both when a call returns, however busy the machine is.
 class SteppedRobot {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -59,7 +59,7 @@ class SteppedRobot {
     const std::lock_guard guard(lock_);
     peers_ = peers;
   }
-  // Several publish this topic of it; empty: no more.
+  // Several nodes publish this topic of the robot; empty for none.
   void Crowd(const std::string& topic) {
     const std::lock_guard guard(lock_);
     crowded_ = topic;
@@ -68,19 +68,19 @@ class SteppedRobot {
     const std::lock_guard guard(lock_);
     return now_;
   }
-  // The last command that there was.
+  // Returns the last command.
   [[nodiscard]] dds::Ros2Command latest() const {
     const std::lock_guard guard(lock_);
     return latest_;
   }
   [[nodiscard]] motion::VelocityCommand told() const { return latest().velocity; }
-  // How many commands there were.
+  // Returns the number of commands.
   [[nodiscard]] int commands() const {
     const std::lock_guard guard(lock_);
     return commands_;
   }
 
-  // The device's end.
+  // This is the device's end of the bus.
   class Driver final : public dds::Ros2Driver {
    public:
     explicit Driver(SteppedRobot& robot) : robot_(robot) {}
@@ -107,7 +107,7 @@ class SteppedRobot {
   };
 
  private:
-  // Who comes for the next step has made of the one before what is to be made of it.
+  // A device that comes for the next step has handled the one before.
   std::vector<dds::Ros2Sensed> Hand() {
     std::unique_lock guard(lock_);
     if (!fails_.empty()) throw std::runtime_error(fails_);
@@ -140,7 +140,7 @@ class SteppedRobot {
   int commands_ = 0;
 };
 
-// A ROS 2 robot's device, of which the test says what the robot senses, and when.
+// This is a ROS 2 robot's device, for which the test decides what the robot senses, and when.
 class Ros2DeviceTest : public testing::Test {
  protected:
   using Seen = Result<std::optional<Observation>>;
@@ -150,7 +150,7 @@ class Ros2DeviceTest : public testing::Test {
     run_.topics.robot = "/robot1";
     run_.limits.acceleration_mps2 = 1000.0;
     run_.clock = [this] { return robot_.now(); };
-    // Ends a wait that nothing else does.
+    // This ends a wait that nothing else ends.
     run_.stop = [this, until = std::chrono::steady_clock::now() + test::kLongEnough] {
       ++looks_;
       return end_ || std::chrono::steady_clock::now() > until;
@@ -171,7 +171,7 @@ class Ros2DeviceTest : public testing::Test {
     ASSERT_TRUE(SeeAll(std::nullopt));
   }
 
-  // A frame later and further.
+  // Moves the robot on by one frame.
   void GoOn(double metres = 0.01) {
     robot_.Pass(kCameraFrame);
     stamp_ += kCameraFrame;
@@ -183,7 +183,7 @@ class Ros2DeviceTest : public testing::Test {
     if (with_odometry) SayOdometry();
     robot_.Say({WalkPicture(stamp_, frame_)});
   }
-  // A scanner's look, with something so far ahead of it, and nothing else.
+  // Publishes a scan that has one thing this far ahead, and nothing else.
   void SayScan(std::optional<float> range_m) {
     constexpr float kNothing = std::numeric_limits<float>::infinity();
     const float met = range_m.value_or(kNothing);
@@ -193,13 +193,13 @@ class Ros2DeviceTest : public testing::Test {
     constexpr float kNothing = std::numeric_limits<float>::infinity();
     robot_.Say({dds::Ros2Range{stamp_, 0, {0.1, 0.02, 4.0, range_m.value_or(kNothing)}}});
   }
-  // Lying so far uphill.
+  // Publishes an attitude that is uphill by this much.
   void SayImu(double climb_rad) {
     const motion::Attitude attitude{0.0, -std::sin(climb_rad / 2.0), 0.0,
                                     std::cos(climb_rad / 2.0)};
     robot_.Say({dds::Ros2Imu{stamp_, {.attitude = attitude}}});
   }
-  // All of it, a frame further.
+  // Publishes all of it, a frame further.
   void SayAll(std::optional<float> range_m) {
     GoOn();
     if (!run_.topics.scan.empty()) SayScan(range_m);
@@ -210,7 +210,7 @@ class Ros2DeviceTest : public testing::Test {
   std::future<Seen> Next() {
     return std::async(std::launch::async, [this] { return device_->Next(); });
   }
-  // The message with which it ends, after the frames that come before.
+  // Returns the message with which the device ends, after the frames that come before.
   std::future<std::string> Failure() {
     return std::async(std::launch::async, [this] {
       Seen seen = device_->Next();
@@ -218,7 +218,8 @@ class Ros2DeviceTest : public testing::Test {
       return seen ? std::string() : seen.error().message;
     });
   }
-  // Whether it is there, once the loop that waits for it has looked at all that there is by now.
+  // Returns whether it is there, once the loop that waits for it has looked at all that there is by
+  // now.
   template <typename Value>
   bool IsThere(std::future<Value>& next) {
     const auto is_there = [&] {
@@ -228,7 +229,7 @@ class Ros2DeviceTest : public testing::Test {
     test::Await([&] { return is_there() || looks_ >= looked; }, "another look of the device");
     return is_there();
   }
-  // Says something again and again until that is there, or far too often.
+  // Publishes something repeatedly until that is there, or far too often.
   template <typename Value>
   Value Until(std::future<Value>& next, const std::function<void()>& say) {
     constexpr int kMost = 2000;
@@ -237,7 +238,7 @@ class Ros2DeviceTest : public testing::Test {
     EXPECT_FALSE(end_) << "the device makes nothing of it";
     return next.get();
   }
-  // What the device makes of what was said, while time passes.
+  // Returns what the device makes of it, while time passes.
   Seen See() {
     auto next = Next();
     return Until(next, [this] { robot_.Pass(milliseconds(10)); });
@@ -251,7 +252,7 @@ class Ros2DeviceTest : public testing::Test {
     return See();
   }
 
-  // At thirty frames a second.
+  // This drives at thirty frames a second.
   void ExpectFramesAtFullRate() {
     for (int frame = 0; frame < 6; ++frame) {
       auto next = Next();
@@ -264,7 +265,8 @@ class Ros2DeviceTest : public testing::Test {
     }
   }
 
-  // The robot is told to. Who was stopped just now speeds up from standing, with the next frames.
+  // Commands the robot to drive, and returns whether it does. A robot that was just stopped
+  // accelerates from standing, with the next frames.
   bool DrivesAhead() {
     for (int time = 0; time < 3; ++time) {
       if (!device_->Drive(kRos2Ahead)) return false;
@@ -273,7 +275,7 @@ class Ros2DeviceTest : public testing::Test {
     }
     return false;
   }
-  // And that this is over.
+  // Expects a report that the robot waited, and another that this is over.
   void ExpectToldThatItWaited() {
     const auto waits = std::find_if(told_.begin(), told_.end(), [](const RobotDevice::Halt& halt) {
       return halt.what == "something stands 0.3 m ahead, in the way: the robot waits";
@@ -283,12 +285,12 @@ class Ros2DeviceTest : public testing::Test {
     EXPECT_EQ(told_.back().what, "");
   }
 
-  // For tests of what happens then.
+  // This is a short patience, for tests of what happens when it ends.
   static constexpr milliseconds kSoonTired{1500};
-  std::atomic<int> looks_ = 0;     // of the loop that waits for a frame
-  std::atomic<bool> end_ = false;  // it is told to
+  std::atomic<int> looks_ = 0;     // looks of the loop that waits for a frame
+  std::atomic<bool> end_ = false;  // it is told to end
   SteppedRobot robot_;
-  int rangers_ = 1;  // who publish each of its range topics
+  int rangers_ = 1;  // publishers of each of its range topics
   Ros2Run run_;
   std::vector<RobotDevice::Halt> told_;
   std::unique_ptr<Ros2Device> device_;

@@ -6,8 +6,8 @@
 
 namespace trailcast::route {
 
-// A segment of which every number lies on the route format's grid, so that it survives a round trip
-// unchanged. Plain arithmetic on purpose: the same on every machine, whatever its random library.
+// Returns a segment whose numbers all lie on the route format's grid, so that a round trip does not
+// change it. It uses plain arithmetic to be the same on every machine, with any random library.
 [[nodiscard]] inline Segment SampleSegment(std::uint32_t index, int features, int knots = 3) {
   Segment segment;
   segment.index = SegmentIndex(index);
@@ -23,7 +23,7 @@ namespace trailcast::route {
     Feature feature;
     for (std::uint8_t& sample : feature.patch) sample = static_cast<std::uint8_t>(next() % 16U);
     for (std::uint8_t& byte : feature.descriptor) byte = static_cast<std::uint8_t>(next() % 256U);
-    // Anywhere in a 320 x 240 image, drifting outwards as features ahead of a robot do.
+    // This is anywhere in a 320 x 240 image, and drifts outwards as features ahead of a robot do.
     const float u = static_cast<float>(next() % 4480U) / 16.0F - 140.0F;
     const float v = static_cast<float>(next() % 3200U) / 16.0F - 100.0F;
     for (int k = 0; k < knots; ++k) {
@@ -39,8 +39,8 @@ namespace trailcast::route {
   return segment;
 }
 
-// The same as it is taught today: with key views, its features' descriptors left out, and a turn on
-// the spot before it.
+// Returns the same segment as it is taught today: with key views, without its features'
+// descriptors, and with a turn on the spot before it.
 [[nodiscard]] inline Segment SampleSegmentWithKeyViews(std::uint32_t index, int features) {
   Segment segment = SampleSegment(index, features);
   segment.turn_before_rad = 1.57;

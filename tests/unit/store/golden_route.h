@@ -11,7 +11,7 @@
 namespace trailcast::store {
 
 // The golden stores hold this route and a tombstone. It has labels and is cut off, and the first of
-// its two segments is receipted.
+// its two segments is acknowledged.
 [[nodiscard]] inline test::TaughtRoute GoldenRoute() {
   test::TaughtRoute taught = test::TeachSamples(2);
   taught.info.standing = route::Standing::kActive;

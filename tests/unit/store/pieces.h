@@ -11,8 +11,8 @@ namespace trailcast::store {
 
 inline const route::RouteKey kYard{RouteId("0123456789abcdef0123456789abcdef"), TeachingId(1)};
 
-// A piece as large as a segment of some fifty features; `salt` makes other bytes for the same
-// index.
+// Returns a piece as large as a segment of some fifty features. `salt` makes other bytes for the
+// same index.
 [[nodiscard]] inline route::SegmentPiece Piece(std::uint32_t index, std::uint32_t salt = 0,
                                                std::size_t size = 5000) {
   route::SegmentPiece piece{kYard, SegmentIndex(index), {}, route::Bytes(size)};

@@ -1,6 +1,6 @@
 #pragma once
 
-// The catalog's part of what every RouteStore promises; see route_store_contract.h.
+// This is the catalog's part of what every RouteStore promises; see route_store_contract.h.
 
 #include <algorithm>
 #include <string>
@@ -12,7 +12,7 @@ namespace trailcast::store {
 
 class RouteQueryContract : public RouteStoreContract {
  protected:
-  // The n-th route, taught at second n, n metres long.
+  // This is the n-th route, taught at second n, n metres long.
   route::RouteInfo Put(std::uint32_t n, const std::string& name, std::vector<std::string> tags = {},
                        std::optional<route::Place> place = {}) {
     route::RouteInfo info = Complete(1);

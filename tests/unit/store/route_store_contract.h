@@ -1,7 +1,7 @@
 #pragma once
 
-// What every RouteStore promises. Include it in one source file per kind of store, and there
-// INSTANTIATE_TEST_SUITE_P(<kind>, RouteStoreContract, testing::Values(&Make<kind>Home)).
+// This is what every RouteStore promises. Include it in one source file per kind of store, and
+// there INSTANTIATE_TEST_SUITE_P(<kind>, RouteStoreContract, testing::Values(&Make<kind>Home)).
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace trailcast::store {
 
-// Where a store lives: opened, closed and opened again it is the same store.
+// This is where a store lives: opened, closed and opened again it is the same store.
 class StoreHome {
  public:
   StoreHome() = default;
@@ -255,7 +255,7 @@ TEST_P(RouteStoreContract, RoutesAreFoundByHowTheirIdsBeginDeletedOnesToo) {
   EXPECT_TRUE(found("ff").empty());
 }
 
-// A revision that has segments of another one in it.
+// This is a revision that has segments of another one in it.
 TEST_P(RouteStoreContract, SegmentsThatAreAlikeOutliveEachOther) {
   route::SegmentPiece again = Piece(0);
   again.key.teaching = TeachingId(2);

@@ -11,9 +11,9 @@
 
 namespace trailcast::sim::test {
 
-// Small worlds to reason about: a grey floor of 20 m x 20 m at z = 0 and what a test puts on it.
-// No sun, ambient light only and the same from everywhere, so that grey levels are those of the
-// materials.
+// These are small worlds that are easy to reason about: a grey floor of 20 m x 20 m at z = 0 and
+// what a test puts on it. There is no sun, only ambient light that is the same from everywhere, so
+// that grey levels are those of the materials.
 class SmallWorld {
  public:
   SmallWorld() {
@@ -25,14 +25,15 @@ class SmallWorld {
     builder_.Box(white_, low, high);
     return *this;
   }
-  // A picture standing across the x axis at `x`, seen from the origin; its lower edge on the floor.
+  // Adds a picture that stands across the x axis at `x`, as seen from the origin, with its lower
+  // edge on the floor.
   SmallWorld& Picture(const image::RgbImage& picture, float x, float width, float height) {
     const auto material =
         builder_.AddMaterial("picture", {255, 255, 255}, std::make_shared<Texture>(picture));
     builder_.Panel(material, {x, width / 2, height}, {0, -width, 0}, {0, 0, -height});
     return *this;
   }
-  // A slope that rises by `rise` a metre ahead, over x from 1 to 8.
+  // Adds a slope that rises by `rise` a metre ahead, over x from 1 to 8.
   SmallWorld& Slope(float rise) {
     builder_.Panel(floor_, {8, 5, 7 * rise}, {0, -10, 0}, {-7, 0, -7 * rise});
     return *this;

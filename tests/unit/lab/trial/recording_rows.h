@@ -6,7 +6,7 @@
 
 namespace trailcast::test {
 
-// A replay of 100 frames that followed all along, at the right place.
+// Returns a replay of 100 frames that followed all along, at the right place.
 inline trial::RecordingRow Judged(const std::string& replay,
                                   const std::string& disturbance = "none",
                                   trial::PairKind kind = trial::PairKind::kRight) {

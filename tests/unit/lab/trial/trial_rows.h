@@ -6,7 +6,7 @@
 
 namespace trailcast::test {
 
-// A trial that ended at this offset from the taught end.
+// Returns a trial that ended at this offset from the taught end.
 inline trial::TrialRow EndedAt(double x_m, double y_m) {
   trial::TrialRow row;
   row.scenario = "indoor";
