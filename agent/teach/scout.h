@@ -9,7 +9,7 @@
 #include "agent/device/device.h"
 #include "agent/diagnosis/summary.h"
 #include "agent/link/scout_link.h"
-#include "agent/teach/hands.h"
+#include "agent/teach/teleoperation.h"
 #include "agent/teach/unfinished.h"
 #include "services/vision/picture_intake.h"
 
@@ -46,10 +46,11 @@ struct Taught {
   std::string text{};      // one line for people: what was taught, and where it is
 };
 
-// Does the same for a robot whose drive operators end, and whom they drive by `hands` if they wish.
-// It needs no server: segments that none has acknowledged in time stay in the store.
+// Does the same for a robot whose drive operators end, and whom they drive by `teleoperation` if
+// they wish. It needs no server: segments that none has acknowledged in time stay in the store.
 [[nodiscard]] Result<Taught> TeachByHand(RobotDevice& device, const ScoutOptions& options,
-                                         Hands& hands, std::unique_ptr<store::RouteStore> store,
+                                         Teleoperation& teleoperation,
+                                         std::unique_ptr<store::RouteStore> store,
                                          std::unique_ptr<exchange::RouteExchange> exchange);
 
 // Sends segments that earlier runs left without an acknowledgement, and waits for that.

@@ -17,7 +17,7 @@
 #include "agent/link/lasting_exchange.h"
 #include "agent/link/mission_desk.h"
 #include "agent/link/now_desk.h"
-#include "agent/teach/hands.h"
+#include "agent/teach/teleoperation.h"
 #include "services/base/mailbox.h"
 #include "services/program/presence.h"
 
@@ -27,7 +27,7 @@ namespace trailcast::agent {
 // does the work.
 //
 // While a route is followed or taught, that link's thread hears messages, and the thread that runs
-// this waits for it, or takes messages from the hands. Neither needs a lock.
+// this waits for it, or takes messages from teleoperation. Neither needs a lock.
 class Duty {
  public:
   Duty(RobotDevice& device, const OnDutyOptions& options,
@@ -93,8 +93,8 @@ class Duty {
   bool was_under_way_ = false;  // while following the present route
   bool undelivered_ = false;    // an earlier teaching was not delivered
   Time deliver_at_{};
-  Hands* hands_ = nullptr;     // while it teaches
-  std::optional<State> told_;  // of the mission under way
+  Teleoperation* teleoperation_ = nullptr;  // while it teaches
+  std::optional<State> told_;               // of the mission under way
   mission::WaitsFor told_waits_for_{};
   std::string told_why_;
   mission::Task driven_;  // the task being followed

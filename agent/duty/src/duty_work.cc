@@ -349,14 +349,14 @@ void Duty::Teach(const mission::Task& task) {
   if (!options_.why_no_scout.empty()) return End(State::kRefused, options_.why_no_scout);
   auto store = options_.open_scouts_store();
   if (!store) return End(State::kFailed, store.error().message);
-  Hands hands;
+  Teleoperation teleoperation;
   was_under_way_ = false;
   on_route_ = task.route.route;
   now_desk_.Teaches(true);
-  hands_ = &hands;
+  teleoperation_ = &teleoperation;
   const auto taught =
-      TeachByHand(device_, ScoutFor(task), hands, *std::move(store), exchange_.Visit());
-  hands_ = nullptr;
+      TeachByHand(device_, ScoutFor(task), teleoperation, *std::move(store), exchange_.Visit());
+  teleoperation_ = nullptr;
   now_desk_.Teaches(false);
   stands_until_ = {};
   undelivered_ = !taught || !taught->delivered;

@@ -53,15 +53,15 @@ void Duty::Hear(const exchange::Message& message) {
   if (claimed_) presence_.Handle(message);
   if (question_) question_->Hear(message);
   if (following_) return;
-  const bool teaches = hands_ != nullptr;
+  const bool teaches = teleoperation_ != nullptr;
   now_desk_.Works(desk_.current().has_value());
   now_desk_.MayBeSent(desk_.has_keeper());
   now_desk_.Handle(message, teaches ? on_route_ : "", NowUnixMs());
   if (!teaches) return;
-  hands_->Tell(now_desk_.hold());
+  teleoperation_->Tell(now_desk_.hold());
   const auto* drive = std::get_if<exchange::DriveCommand>(&message);
   if (drive != nullptr && drive->agent == options_.agent) {
-    hands_->Hear(*drive, steady_clock::now());
+    teleoperation_->Hear(*drive, steady_clock::now());
   }
 }
 
@@ -75,7 +75,7 @@ void Duty::Say(exchange::RouteExchange& to) {
   (void)exchange::PublishAll(to, now_desk_.TakeAnswers());
   // This covers a robot that heard no server while it followed.
   if (presence_.server()) followed_note_.TellIfDue(to, now);
-  if (hands_ != nullptr) return hands_->Tell(now_desk_.hold());
+  if (teleoperation_ != nullptr) return teleoperation_->Tell(now_desk_.hold());
   if (delivering_) return;
   ShowFree();
   presence_.Tick(now);
@@ -140,7 +140,7 @@ void Duty::TellState(State state, const std::string& why, mission::WaitsFor wait
 
 // The follower's or scout's status is the mission's state.
 void Duty::SawStatus(const exchange::AgentStatus& status) {
-  const bool at_work = following_ || hands_ != nullptr;
+  const bool at_work = following_ || teleoperation_ != nullptr;
   if (!at_work || !desk_.current()) return;
   on_route_ = status.route;
   place_ = status.place;

@@ -145,11 +145,12 @@ void TellReverse(const TeachStep& step, Drive& drive) {
 }
 
 // Returns false if the drive is over. `told` is the base's last command.
-Result<bool> Steer(RobotDevice& device, Hands* hands, motion::VelocityCommand& told) {
-  if (hands == nullptr) return true;
-  hands->Take();
-  if (hands->hold().cancelled || hands->hold().ended) return false;
-  const auto wanted = hands->Wanted(std::chrono::steady_clock::now());
+Result<bool> Steer(RobotDevice& device, Teleoperation* teleoperation,
+                   motion::VelocityCommand& told) {
+  if (teleoperation == nullptr) return true;
+  teleoperation->Take();
+  if (teleoperation->hold().cancelled || teleoperation->hold().ended) return false;
+  const auto wanted = teleoperation->Wanted(std::chrono::steady_clock::now());
   if (!wanted) return true;
   const auto driven = device.Drive(*wanted);
   if (!driven) return tl::unexpected(driven.error());
@@ -166,7 +167,7 @@ Result<void> CatchUp(TeachSession& session, ScoutLink& link, Drive& drive) {
 
 // The control loop: frame, step, hand over. It ends with the drive, a signal or an error.
 Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOptions& options,
-                       Hands* hands, ScoutLink& link, Drive& drive) {
+                       Teleoperation* teleoperation, ScoutLink& link, Drive& drive) {
   const Standstill standstill(device);
   TeachOptions teach;
   teach.intake = options.intake;
@@ -204,7 +205,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
       options.glances->Show({.picture = observation->image});
     }
     if (!result) break;
-    const auto goes_on = Steer(device, hands, told);
+    const auto goes_on = Steer(device, teleoperation, told);
     if (!goes_on) result = tl::unexpected(goes_on.error());
     if (!goes_on || !*goes_on) break;
     auto next = device.Next();
@@ -212,7 +213,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
       result = tl::unexpected(next.error());
     } else {
       observation = std::move(*next);
-      if (observation && hands != nullptr) observation->told = told;
+      if (observation && teleoperation != nullptr) observation->told = told;
     }
   }
   standstill.Stop();
@@ -306,14 +307,14 @@ Result<Observation> Begin(RobotDevice& device, const ScoutOptions& options, Scou
 }
 
 // Drives to the drive's end, whatever that is. The error is that it did not begin.
-Result<void> BeginAndDrive(RobotDevice& device, const ScoutOptions& options, Hands* hands,
-                           ScoutLink& link, Drive& drive) {
+Result<void> BeginAndDrive(RobotDevice& device, const ScoutOptions& options,
+                           Teleoperation* teleoperation, ScoutLink& link, Drive& drive) {
   const auto cut_off = SettleUnfinished(options, link);
   if (!cut_off) return tl::unexpected(cut_off.error());
   if (auto opened = link.Open(); !opened) return tl::unexpected(opened.error());
   auto first = Begin(device, options, link, *cut_off);
   if (!first) return tl::unexpected(first.error());
-  drive.driven = TeachLoop(device, std::move(*first), options, hands, link, drive);
+  drive.driven = TeachLoop(device, std::move(*first), options, teleoperation, link, drive);
   return {};
 }
 
@@ -361,21 +362,21 @@ Result<Summary> Teach(RobotDevice& device, const ScoutOptions& options,
   return Summarize(*outcome, drive);
 }
 
-Result<Taught> TeachByHand(RobotDevice& device, const ScoutOptions& options, Hands& hands,
-                           std::unique_ptr<store::RouteStore> store,
+Result<Taught> TeachByHand(RobotDevice& device, const ScoutOptions& options,
+                           Teleoperation& teleoperation, std::unique_ptr<store::RouteStore> store,
                            std::unique_ptr<exchange::RouteExchange> exchange) {
   const Standstill standstill(device);
   const DrivenByHand by_hand(device);
   ScoutLink link(options.link, std::move(store), std::move(exchange));
   Drive drive;
-  if (auto begun = BeginAndDrive(device, options, &hands, link, drive); !begun) {
+  if (auto begun = BeginAndDrive(device, options, &teleoperation, link, drive); !begun) {
     return tl::unexpected(begun.error());
   }
   using End = Taught::End;
   using Ending = ScoutLink::Ending;
-  const End end = hands.hold().cancelled ? End::kDiscarded
-                  : options.link.stop()  ? End::kInterrupted
-                                         : End::kComplete;
+  const End end = teleoperation.hold().cancelled ? End::kDiscarded
+                  : options.link.stop()          ? End::kInterrupted
+                                                 : End::kComplete;
   auto outcome = link.Finish(!drive.driven              ? Ending::kCutOff
                              : end == End::kDiscarded   ? Ending::kDiscard
                              : end == End::kInterrupted ? Ending::kCutOff

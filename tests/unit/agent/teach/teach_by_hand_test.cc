@@ -35,7 +35,7 @@ class TeachByHandTest : public testing::Test {
   void Drive(double linear_mps) {
     const auto now = steady_clock::now();
     const auto said_ms = std::chrono::duration_cast<milliseconds>(now.time_since_epoch()).count();
-    hands_.Hear(
+    teleoperation_.Hear(
         {AgentId("robot1"), AgentId("ann"), linear_mps, 0.0, static_cast<std::uint64_t>(said_ms)},
         now);
   }
@@ -43,7 +43,7 @@ class TeachByHandTest : public testing::Test {
     auto options = swarm_.ScoutNamed("robot1");
     options.link.instance = 7;
     options.link.delivery_timeout = with_server ? milliseconds(20'000) : milliseconds(0);
-    return TeachByHand(device_, options, hands_, swarm_.OpenStore("robot1"),
+    return TeachByHand(device_, options, teleoperation_, swarm_.OpenStore("robot1"),
                        swarm_.Join(exchange::TeachingTopics()));
   }
   route::RouteInfo Stored(const std::string& agent) {
@@ -53,14 +53,14 @@ class TeachByHandTest : public testing::Test {
 
   test::Swarm swarm_;
   Driven device_;
-  Hands hands_;
+  Teleoperation teleoperation_;
 };
 
 TEST_F(TeachByHandTest, WhatIsDrivenIsTaughtUntilItIsEnded) {
   swarm_.StartServer();
   device_.before_frame = [this](double along_m) {
     if (along_m < 2.5) return Drive(0.6);
-    hands_.Tell({.ended = true});
+    teleoperation_.Tell({.ended = true});
   };
   const auto taught = Teach(true);
   swarm_.StopServer();
@@ -75,7 +75,7 @@ TEST_F(TeachByHandTest, WhatIsDrivenIsTaughtUntilItIsEnded) {
 TEST_F(TeachByHandTest, WithoutAServerItIsKeptForLater) {
   device_.before_frame = [this](double along_m) {
     if (along_m < 1.5) return Drive(0.6);
-    hands_.Tell({.ended = true});
+    teleoperation_.Tell({.ended = true});
   };
   const auto taught = Teach(false);
   ASSERT_TRUE(taught) << taught.error().message;
@@ -88,7 +88,7 @@ TEST_F(TeachByHandTest, WithoutAServerItIsKeptForLater) {
 TEST_F(TeachByHandTest, WhatIsCancelledIsFollowedByNobodyAndOfferedToNobody) {
   device_.before_frame = [this](double along_m) {
     if (along_m < 1.5) return Drive(0.6);
-    hands_.Tell({.cancelled = true});
+    teleoperation_.Tell({.cancelled = true});
   };
   const auto taught = Teach(false);
   ASSERT_TRUE(taught) << taught.error().message;
@@ -114,7 +114,7 @@ TEST_F(TeachByHandTest, WhatAServerHasOfACancelledOneIsNotFollowed) {
       const auto* receipt = std::get_if<exchange::Receipt>(&message);
       stored |= receipt != nullptr && receipt->durable_prefix > 0;
     }
-    if (stored || steady_clock::now() > gives_up) hands_.Tell({.cancelled = true});
+    if (stored || steady_clock::now() > gives_up) teleoperation_.Tell({.cancelled = true});
   };
   const auto taught = Teach(true);
   swarm_.StopServer();
@@ -136,7 +136,7 @@ TEST_F(TeachByHandTest, TheRobotStandsWhenItsDriverFallsSilentAndTeachingGoesOn)
       at_m = along_m;
       since = steady_clock::now();
     } else if (steady_clock::now() - since > milliseconds(500)) {
-      hands_.Tell({.ended = true});
+      teleoperation_.Tell({.ended = true});
     }
   };
   const auto taught = Teach(false);
@@ -163,7 +163,7 @@ TEST_F(TeachByHandTest, HowFarAndHowFastIsToldOfEachMomentNotOfEachSegment) {
                status->place->along_m > along_m - 0.1;
     }
     if (along_m < 2.0) return Drive(0.6);
-    if (stood || steady_clock::now() > gives_up) hands_.Tell({.ended = true});
+    if (stood || steady_clock::now() > gives_up) teleoperation_.Tell({.ended = true});
   };
   const auto taught = Teach(false);
   ASSERT_TRUE(taught) << taught.error().message;
@@ -196,7 +196,8 @@ TEST_F(TeachByHandTest, WhoDrivesItIsToldWhatStandsInItsWay) {
       device_.tell({});
       if (told("")) seen = Seen::kGoesOn;
     }
-    if (seen == Seen::kGoesOn || steady_clock::now() > gives_up) hands_.Tell({.ended = true});
+    if (seen == Seen::kGoesOn || steady_clock::now() > gives_up)
+      teleoperation_.Tell({.ended = true});
   };
   const auto taught = Teach(false);
   ASSERT_TRUE(taught) << taught.error().message;
@@ -209,7 +210,7 @@ TEST_F(TeachByHandTest, WhoDrivesItWithoutThisProgramIsLetBe) {
   auto options = swarm_.ScoutNamed("robot1");
   options.link.delivery_timeout = milliseconds(0);
   options.link.instance = 7;
-  const auto taught = TeachByHand(walked, options, hands_, swarm_.OpenStore("robot1"),
+  const auto taught = TeachByHand(walked, options, teleoperation_, swarm_.OpenStore("robot1"),
                                   swarm_.Join(exchange::TeachingTopics()));
   ASSERT_TRUE(taught) << taught.error().message;
   EXPECT_NEAR(Stored("robot1").length_m, 2.98, 0.2);

@@ -1,20 +1,20 @@
-#include "agent/teach/hands.h"
+#include "agent/teach/teleoperation.h"
 
 #include <utility>
 
 namespace trailcast::agent {
 
-void Hands::Hear(const exchange::DriveCommand& command, Time now) {
+void Teleoperation::Hear(const exchange::DriveCommand& command, Time now) {
   (void)words_.TryPut({command, now});
 }
 
-void Hands::Tell(const Hold& hold) {
+void Teleoperation::Tell(const Hold& hold) {
   if (hold == told_) return;
   // If the queue is full, the next call repeats it.
   if (holds_.TryPut(Hold(hold))) told_ = hold;
 }
 
-void Hands::Take() {
+void Teleoperation::Take() {
   while (auto hold = holds_.TryGet()) hold_ = *std::move(hold);
   while (const auto word = words_.TryGet()) {
     const exchange::DriveCommand& said = word->command;
@@ -26,7 +26,7 @@ void Hands::Take() {
   }
 }
 
-std::optional<motion::VelocityCommand> Hands::Wanted(Time now) const {
+std::optional<motion::VelocityCommand> Teleoperation::Wanted(Time now) const {
   const bool held = hold_.kind != Hold::Kind::kNone;
   if (!held && !seat_.IsTaken(now)) return std::nullopt;
   return !held && seat_.Holds(now) ? command_ : motion::VelocityCommand{};

@@ -13,7 +13,7 @@ namespace trailcast::agent {
 
 // Lets operators drive a teaching robot remotely. The link's thread takes their commands, and the
 // control loop asks for them without waiting. It has no clock of its own.
-class Hands {
+class Teleoperation {
  public:
   using Time = mission::DriverSeat::Time;
 
