@@ -33,7 +33,7 @@ class RobotDevice {
     bool fault = true;  // something on the robot has failed; otherwise it waits
   };
   // Called by Next, on its thread, when the robot had to be stopped and when it may drive again
-  // (EarForTrouble). Devices that never wait for their robot do not call it.
+  // (FaultSubscription). Devices that never wait for their robot do not call it.
   using Trouble = std::function<void(const Halt& halt)>;
   virtual void OnTrouble(const Trouble& /*tell*/) {}
 

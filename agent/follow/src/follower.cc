@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "agent/camera_view/glances.h"
-#include "agent/device/ear_for_trouble.h"
+#include "agent/device/fault_subscription.h"
 #include "agent/device/standstill.h"
 #include "agent/follow/known_path.h"
 #include "agent/follow/src/progress_watch.h"
@@ -217,7 +217,8 @@ Result<bool> Loop::WaitForFeed() {
 }
 
 Result<void> Loop::Run(Standstill& standstill) {
-  const EarForTrouble ear(device_, [this](const RobotDevice::Halt& halt) { TellTrouble(halt); });
+  const FaultSubscription subscription(
+      device_, [this](const RobotDevice::Halt& halt) { TellTrouble(halt); });
   while (true) {
     if (options_.link.stop()) {
       End(RunEnd::kStopped, "stopped by a signal");

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "agent/camera_view/glances.h"
-#include "agent/device/ear_for_trouble.h"
+#include "agent/device/fault_subscription.h"
 #include "agent/device/standstill.h"
 #include "agent/session/teach_session.h"
 #include "agent/teach/src/going_on.h"
@@ -176,7 +176,7 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
   TeachSession session(teach);
   TeachingNow now;
   Pace pace;
-  const EarForTrouble ear(device, [&](const RobotDevice::Halt& halt) {
+  const FaultSubscription subscription(device, [&](const RobotDevice::Halt& halt) {
     now.stands = halt.what;
     link.Report(now);
   });

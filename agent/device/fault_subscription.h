@@ -5,16 +5,16 @@
 namespace trailcast::agent {
 
 // Listens to a robot's trouble for its own lifetime. A device has one at a time.
-class EarForTrouble {
+class FaultSubscription {
  public:
-  EarForTrouble(RobotDevice& device, const RobotDevice::Trouble& hear) : device_(device) {
+  FaultSubscription(RobotDevice& device, const RobotDevice::Trouble& hear) : device_(device) {
     device_.OnTrouble(hear);
   }
-  ~EarForTrouble() {
+  ~FaultSubscription() {
     device_.OnTrouble([](const RobotDevice::Halt&) {});
   }
-  EarForTrouble(const EarForTrouble&) = delete;
-  EarForTrouble& operator=(const EarForTrouble&) = delete;
+  FaultSubscription(const FaultSubscription&) = delete;
+  FaultSubscription& operator=(const FaultSubscription&) = delete;
 
  private:
   RobotDevice& device_;
