@@ -9,7 +9,7 @@
 
 #include "agent/camera_view/glances.h"
 #include "agent/duty/on_duty.h"
-#include "agent/duty/src/elsewhere.h"
+#include "agent/duty/src/relocalisation.h"
 #include "agent/duty/src/turning.h"
 #include "agent/duty/src/view_question.h"
 #include "agent/follow/next_path.h"
@@ -60,12 +60,12 @@ class Duty {
   void Follow(const mission::Task& task, std::unique_ptr<NextPath> begun);
   [[nodiscard]] std::optional<mission::Task> TaskAfter() const;
   [[nodiscard]] FollowerOptions::Next PrepareNext(const std::optional<OwnLens>& lens);
-  void LookElsewhere();
+  void Relocalise();
   [[nodiscard]] FollowerOptions FollowerFor(const mission::Task& task);
   // Returns nothing if there is no outcome to judge, because it failed before, or goes another way.
   [[nodiscard]] std::optional<Result<ReplayOutcome>> RunFollower(
       const FollowerOptions& follower, std::unique_ptr<NextPath> begun = nullptr);
-  [[nodiscard]] bool LooksElsewhere(const Result<ReplayOutcome>& outcome);
+  [[nodiscard]] bool BeginsToRelocalise(const Result<ReplayOutcome>& outcome);
   [[nodiscard]] std::vector<std::string> RoutesInView();
   [[nodiscard]] std::vector<std::string> AskWhatIsInView(const route::View& view);
   void RefreshVisited();
@@ -114,7 +114,7 @@ class Duty {
   std::vector<Visited> visited_;  // visits by which routes are refreshed once the robot stands
   std::string missed_;            // why it stands until it is sent another path; empty if it need
                                   // not
-  Elsewhere elsewhere_;
+  Relocalisation relocalisation_;
   std::optional<ViewQuestion> question_;  // while it asks servers about its view
   std::optional<Time> told_until_;        // until when a robot that has found itself waits there
                                           // for a path

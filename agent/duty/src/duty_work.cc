@@ -45,8 +45,8 @@ void Duty::Work() {
   } else if (Held()) {
     if (told_until_) told_until_ = steady_clock::now() + kToldWithin;
     TellState(State::kPaused, now_desk_.hold().text);
-  } else if (elsewhere_.looks()) {
-    LookElsewhere();
+  } else if (relocalisation_.looks()) {
+    Relocalise();
   } else if (WaitsForWay()) {
     WaitForWay();
   } else if (task.kind == mission::Task::Kind::kTurn || turned_rad_ != 0.0) {
@@ -100,7 +100,7 @@ void Duty::WaitForWay() {
   const MissionDesk::Current& current = *desk_.current();
   if (told_until_ && steady_clock::now() > *told_until_) {
     return End(State::kFailed, fmt::format("{}; {}, and no server tells it another way within {} s",
-                                           elsewhere_.Lost(), missed_, kToldWithin.count()));
+                                           relocalisation_.Lost(), missed_, kToldWithin.count()));
   }
   if (missed_.empty() && current.kind() == mission::Task::Kind::kWaitLane) {
     const bool told = current.going.why == mission::Going::Why::kQueued;
@@ -121,9 +121,9 @@ void Duty::GoOtherWay() {
 void Duty::GoAlong() {
   missed_.clear();
   told_until_.reset();
-  if (!following_ || elsewhere_.looks()) {
+  if (!following_ || relocalisation_.looks()) {
     told_.reset();
-    elsewhere_.End();
+    relocalisation_.End();
     turned_off_ = following_;
     return;
   }
@@ -236,7 +236,7 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
   }
   follower.next = [this](const std::optional<OwnLens>& lens) { return PrepareNext(lens); };
   auto outcome = RunFollower(follower, std::move(begun));
-  if (!outcome || LooksElsewhere(*outcome)) return;
+  if (!outcome || BeginsToRelocalise(*outcome)) return;
   const bool arrived = *outcome && (*outcome)->success;
   // It had already arrived when it heard that its order ends further on.
   const double on_m = place_ ? end_m_ - place_->along_m : 0.0;
@@ -251,16 +251,16 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
 
 // Returns true if it looks on other routes from now on. An order to drive one route does not allow
 // others.
-bool Duty::LooksElsewhere(const Result<ReplayOutcome>& outcome) {
+bool Duty::BeginsToRelocalise(const Result<ReplayOutcome>& outcome) {
   if (!outcome || outcome->end != RunEnd::kLost) return false;
-  if (desk_.current()->going.to.empty() || !elsewhere_.MayBegin()) return false;
+  if (desk_.current()->going.to.empty() || !relocalisation_.MayBegin()) return false;
   // It hears the network while it asks about its view, and may be sent another path meanwhile, so
   // the order is read afterwards.
   const std::vector<std::string> seen = RoutesInView();
   const MissionDesk::Current& current = *desk_.current();
-  elsewhere_.Begin(current.tasks, current.task,
-                   fmt::format("{}: {}", outcome->state, outcome->reason), seen);
-  spdlog::warn("{}", elsewhere_.Lost());
+  relocalisation_.Begin(current.tasks, current.task,
+                        fmt::format("{}: {}", outcome->state, outcome->reason), seen);
+  spdlog::warn("{}", relocalisation_.Lost());
   told_.reset();
   return true;
 }
@@ -292,8 +292,8 @@ std::vector<std::string> Duty::AskWhatIsInView(const route::View& view) {
   return routes;
 }
 
-void Duty::LookElsewhere() {
-  const mission::Task route = elsewhere_.route();
+void Duty::Relocalise() {
+  const mission::Task route = relocalisation_.route();
   spdlog::info("looks whether it is on {}", route.route.route);
   FollowerOptions follower = FollowerFor(route);
   // Looking all round takes most of a minute for each route.
@@ -305,17 +305,17 @@ void Duty::LookElsewhere() {
   const auto outcome = RunFollower(follower);
   if (!outcome) return;
   if (place_) {
-    elsewhere_.End();
+    relocalisation_.End();
     missed_ = fmt::format("it finds itself on {} at {:.1f} m", on_route_, place_->along_m);
     told_until_ = steady_clock::now() + kToldWithin;
     told_.reset();
     return spdlog::info("{}", missed_);
   }
   if (*outcome && ((*outcome)->end == RunEnd::kStopped || (*outcome)->end == RunEnd::kCancelled)) {
-    elsewhere_.End();
+    relocalisation_.End();
     return Judge(*outcome);
   }
-  if (elsewhere_.NotThere()) End(State::kFailed, elsewhere_.Lost());
+  if (relocalisation_.NotThere()) End(State::kFailed, relocalisation_.Lost());
 }
 
 // A server gets the revision while the robot is free.
@@ -421,7 +421,7 @@ void Duty::Judge(const Result<ReplayOutcome>& outcome) {
 }
 
 void Duty::Done(const std::string& what) {
-  elsewhere_.Reset();
+  relocalisation_.Reset();
   wait_until_.reset();
   told_.reset();
   desk_.NoteDone();
@@ -435,7 +435,7 @@ void Duty::End(State state, const std::string& why) {
                       why.empty() ? "" : ": ", why);
   desk_.Tell(state, why);
   told_.reset();
-  elsewhere_.Reset();
+  relocalisation_.Reset();
   missed_.clear();
   told_until_.reset();
   wait_until_.reset();

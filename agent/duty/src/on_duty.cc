@@ -146,9 +146,9 @@ void Duty::SawStatus(const exchange::AgentStatus& status) {
   place_ = status.place;
   if (Held()) {
     TellState(State::kPaused, now_desk_.hold().text);
-  } else if (elsewhere_.looks()) {
+  } else if (relocalisation_.looks()) {
     TellState(State::kFetching,
-              fmt::format("{}; looks whether it is on {}", elsewhere_.Lost(), on_route_));
+              fmt::format("{}; looks whether it is on {}", relocalisation_.Lost(), on_route_));
   } else if (status.mode == exchange::AgentMode::kReplaying ||
              status.mode == exchange::AgentMode::kTeaching) {
     was_under_way_ = true;

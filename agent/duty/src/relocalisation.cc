@@ -1,4 +1,4 @@
-#include "agent/duty/src/elsewhere.h"
+#include "agent/duty/src/relocalisation.h"
 
 #include <fmt/ranges.h>
 
@@ -9,8 +9,8 @@ namespace trailcast::agent {
 
 using mission::Task;
 
-void Elsewhere::Begin(std::span<const Task> way, std::uint32_t task, std::string lost,
-                      const std::vector<std::string>& seen) {
+void Relocalisation::Begin(std::span<const Task> way, std::uint32_t task, std::string lost,
+                           const std::vector<std::string>& seen) {
   lost_ = std::move(lost);
   not_on_.clear();
   routes_.clear();
@@ -27,18 +27,18 @@ void Elsewhere::Begin(std::span<const Task> way, std::uint32_t task, std::string
   }
 }
 
-bool Elsewhere::NotThere() {
+bool Relocalisation::NotThere() {
   not_on_.push_back(routes_.front().route.route);
   routes_.pop_front();
   return routes_.empty();
 }
 
-void Elsewhere::Reset() {
+void Relocalisation::Reset() {
   End();
   times_ = 0;
 }
 
-std::string Elsewhere::Lost() const {
+std::string Relocalisation::Lost() const {
   if (not_on_.empty()) return lost_;
   return fmt::format("{}; and it does not find itself on {}", lost_, fmt::join(not_on_, " or "));
 }

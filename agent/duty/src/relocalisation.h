@@ -13,7 +13,7 @@ namespace trailcast::agent {
 // The routes on which a robot that was going to a place and has lost its path looks for itself: all
 // along its own, on those that resemble its view, and then on the others of its path, beginning
 // with those after its own.
-class Elsewhere {
+class Relocalisation {
  public:
   // Between one place on its path and the next that it reaches, it looks so often.
   static constexpr int kMostTimes = 3;
