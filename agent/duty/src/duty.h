@@ -55,7 +55,7 @@ class Duty {
   void Turn(const mission::Task& task, std::unique_ptr<Turning> turning);
   [[nodiscard]] bool WaitsForWay() const;
   void WaitForWay();
-  void GoOtherWay();
+  void Reroute();
   void GoAlong();
   void Follow(const mission::Task& task, std::unique_ptr<NextPath> begun);
   [[nodiscard]] std::optional<mission::Task> TaskAfter() const;

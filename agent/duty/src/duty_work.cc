@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "agent/duty/src/duty.h"
-#include "agent/duty/src/other_way.h"
+#include "agent/duty/src/rerouting.h"
 #include "agent/duty/src/routes_seen.h"
 #include "agent/link/outbox.h"
 #include "services/base/time.h"
@@ -113,7 +113,7 @@ void Duty::WaitForWay() {
 }
 
 // The link's thread calls this; end_m_ and turned_off_ tell the control loop.
-void Duty::GoOtherWay() {
+void Duty::Reroute() {
   GoAlong();
   (void)tasks_after_.TryPut(TaskAfter());  // if it is full, the change-over looks at it again
 }
@@ -129,15 +129,15 @@ void Duty::GoAlong() {
   }
   const auto& tasks = desk_.current()->tasks;
   const auto along_m = place_ ? std::optional(place_->along_m) : std::nullopt;
-  const OtherWay other = FindOnWay(tasks, driven_, along_m);
+  const Rerouting other = FindOnPath(tasks, driven_, along_m);
   desk_.GoOnAt(other.task);
   const mission::Task& task = tasks[other.task];
-  if (other.kind == OtherWay::Kind::kGoesOn) {
+  if (other.kind == Rerouting::Kind::kGoesOn) {
     driven_ = task;
     end_m_ = task.to_m;
     return;
   }
-  if (other.kind == OtherWay::Kind::kMissed) {
+  if (other.kind == Rerouting::Kind::kMissed) {
     missed_ = fmt::format("it was told at {:.1f} m to leave {} at {:.1f} m", *along_m,
                           task.route.route, task.to_m);
   } else if (along_m && task.route.route == driven_.route.route) {
@@ -240,7 +240,8 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
   const bool arrived = *outcome && (*outcome)->success;
   // It had already arrived when it heard that its order ends further on.
   const double on_m = place_ ? end_m_ - place_->along_m : 0.0;
-  const bool goes_on = arrived && end_m_ != task.to_m && (task.backwards ? -on_m : on_m) > kOnWay_m;
+  const bool goes_on =
+      arrived && end_m_ != task.to_m && (task.backwards ? -on_m : on_m) > kOnPath_m;
   if (goes_on) return desk_.BeginAt(place_->along_m);
   if (arrived && (*outcome)->visit) {
     visited_.push_back({*(*outcome)->followed, *std::move((*outcome)->visit)});

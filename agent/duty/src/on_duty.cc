@@ -49,7 +49,7 @@ Duty::Duty(RobotDevice& device, const OnDutyOptions& options,
 
 void Duty::Hear(const exchange::Message& message) {
   desk_.Handle(message);
-  if (desk_.TakeAmended()) GoOtherWay();
+  if (desk_.TakeAmended()) Reroute();
   if (claimed_) presence_.Handle(message);
   if (question_) question_->Hear(message);
   if (following_) return;

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <random>
 
-#include "agent/duty/src/other_way.h"
+#include "agent/duty/src/rerouting.h"
 #include "agent/link/mission_desk.h"
 #include "route_server/network/lane_keeper.h"
 #include "route_server/network/replanning.h"
@@ -263,19 +263,19 @@ class LanesModel {
     walker.told.emplace(state, waits_for);
     walker.desk.Tell(state, "xyzzy", waits_for);
   }
-  void GoOtherWay(Walker& walker) {
+  void Reroute(Walker& walker) {
     walker.missed = false;
     walker.told.reset();
     if (!walker.driven) return;
     const auto& tasks = walker.desk.current()->tasks;
-    const OtherWay other = FindOnWay(tasks, *walker.driven,
-                                     walker.placed ? std::optional(walker.along_m) : std::nullopt);
+    const Rerouting other = FindOnPath(
+        tasks, *walker.driven, walker.placed ? std::optional(walker.along_m) : std::nullopt);
     walker.desk.GoOnAt(other.task);
-    if (other.kind == OtherWay::Kind::kGoesOn) {
+    if (other.kind == Rerouting::Kind::kGoesOn) {
       walker.driven = tasks[other.task];
       return;
     }
-    walker.missed = other.kind == OtherWay::Kind::kMissed;
+    walker.missed = other.kind == Rerouting::Kind::kMissed;
     if (!walker.missed && walker.placed && tasks[other.task].kind == Task::Kind::kFollow &&
         tasks[other.task].route.route == walker.driven->route.route) {
       walker.desk.BeginAt(walker.along_m);
@@ -286,7 +286,7 @@ class LanesModel {
     while (!walker.in.empty() && walker.in.front().first <= now_) {
       walker.desk.Handle(walker.in.front().second);
       walker.in.pop_front();
-      if (walker.desk.TakeAmended()) GoOtherWay(walker);
+      if (walker.desk.TakeAmended()) Reroute(walker);
     }
     if (walker.desk.current()) Work(walker);
     for (exchange::Message& message : walker.desk.Due(now_, true)) {

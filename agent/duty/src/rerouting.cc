@@ -1,4 +1,4 @@
-#include "agent/duty/src/other_way.h"
+#include "agent/duty/src/rerouting.h"
 
 #include <cmath>
 
@@ -23,21 +23,21 @@ double DoneAt(const Task& task, double along_m) {
 
 }  // namespace
 
-OtherWay FindOnWay(std::span<const Task> way, const Task& driven, std::optional<double> along_m) {
+Rerouting FindOnPath(std::span<const Task> way, const Task& driven, std::optional<double> along_m) {
   if (!along_m || way.empty()) return {};
   for (std::uint32_t i = 0; i < way.size(); ++i) {
     const Task& task = way[i];
     if (task.kind != Task::Kind::kFollow) break;  // the robot may not go on beyond that
     const double done_m = DoneAt(task, *along_m);
     const bool is_on =
-        AreOfOneRoute(task, driven) && done_m >= -kOnWay_m && done_m <= LengthOf(task) + kPassed_m;
+        AreOfOneRoute(task, driven) && done_m >= -kOnPath_m && done_m <= LengthOf(task) + kPassed_m;
     if (!is_on) continue;
     const bool same_pace = task.speed_factor == driven.speed_factor;
-    return {.kind = same_pace ? OtherWay::Kind::kGoesOn : OtherWay::Kind::kBegins, .task = i};
+    return {.kind = same_pace ? Rerouting::Kind::kGoesOn : Rerouting::Kind::kBegins, .task = i};
   }
   const bool passed =
       AreOfOneRoute(way.front(), driven) && DoneAt(way.front(), *along_m) > LengthOf(way.front());
-  return {.kind = passed ? OtherWay::Kind::kMissed : OtherWay::Kind::kBegins};
+  return {.kind = passed ? Rerouting::Kind::kMissed : Rerouting::Kind::kBegins};
 }
 
 }  // namespace trailcast::agent

@@ -1,11 +1,11 @@
-#include "agent/duty/src/other_way.h"
+#include "agent/duty/src/rerouting.h"
 
 #include <gtest/gtest.h>
 
 namespace trailcast::agent {
 namespace {
 
-using Kind = OtherWay::Kind;
+using Kind = Rerouting::Kind;
 
 mission::Task TaskIn(const std::string& text) { return mission::ParseOrders(text)->front(); }
 
@@ -17,7 +17,7 @@ struct Case {
 };
 
 // It follows 'hall 0..3'.
-TEST(OtherWayTest, ARobotGoesOnWhereItIsOnTheOtherWay) {
+TEST(ReroutingTest, ARobotGoesOnWhereItIsOnTheOtherWay) {
   for (const Case& each : {
            Case{"follow hall 1..1.5 follow yard 0..3", 1.1, Kind::kGoesOn, 0},
            Case{"follow hall 1..1.5 follow yard 0..3", 0.8, Kind::kGoesOn, 0},
@@ -35,15 +35,15 @@ TEST(OtherWayTest, ARobotGoesOnWhereItIsOnTheOtherWay) {
        }) {
     const auto way = mission::ParseOrders("goto bay way 2 " + std::string(each.way));
     ASSERT_TRUE(way) << way.error().message;
-    const OtherWay other = FindOnWay(*way, TaskIn("follow hall 0..3"), each.along_m);
+    const Rerouting other = FindOnPath(*way, TaskIn("follow hall 0..3"), each.along_m);
     EXPECT_EQ(other.kind, each.kind) << each.way << " at " << each.along_m;
     EXPECT_EQ(other.task, each.task) << each.way << " at " << each.along_m;
   }
 }
 
-TEST(OtherWayTest, ARobotThatHasNotFoundItselfBeginsIt) {
+TEST(ReroutingTest, ARobotThatHasNotFoundItselfBeginsIt) {
   const auto way = mission::ParseOrders("follow hall 0..1 follow yard 0..3");
-  EXPECT_EQ(FindOnWay(*way, TaskIn("follow hall 0..3"), std::nullopt).kind, Kind::kBegins);
+  EXPECT_EQ(FindOnPath(*way, TaskIn("follow hall 0..3"), std::nullopt).kind, Kind::kBegins);
 }
 
 }  // namespace
