@@ -400,7 +400,7 @@ void Server::ShowMetricsIfDue(steady_clock::time_point now) {
   metrics_.store_reachable = upkeep_->store_trouble().empty() && keeper_->untaken().empty();
   metrics_.partial_routes = upkeep_->partial_routes();
   metrics_.lacking_segments = upkeep_->lacking_segments();
-  metrics_.dropped_strays = upkeep_->dropped_strays();
+  metrics_.dropped_orphans = upkeep_->dropped_orphans();
   metrics_.on_network = network_state_->trouble.empty();
   metrics_.mirror = {mirror_.others().size(), 0, mirror_.under_way(), mirror_.asked()};
   for (const auto& [server, other] : mirror_.others()) {

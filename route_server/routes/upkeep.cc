@@ -20,7 +20,7 @@ void Upkeep::Tick(Time now) {
     spdlog::log(watch_.trouble().empty() ? spdlog::level::info : spdlog::level::err, "{}", *news);
   }
   if (!watch_.trouble().empty()) return;
-  for (auto see_to : {&Upkeep::SeeToRoutes, &Upkeep::SeeToStrays}) {
+  for (auto see_to : {&Upkeep::SeeToRoutes, &Upkeep::SeeToOrphans}) {
     const auto seen = (this->*see_to)(now);
     if (seen) continue;
     if (std::exchange(told_, seen.error().message) != told_) {
@@ -43,16 +43,16 @@ Result<void> Upkeep::SeeToRoutes(Time now) {
   return {};
 }
 
-Result<void> Upkeep::SeeToStrays(Time now) {
-  const auto strays = strays_.Next(now);
-  if (!strays) return tl::unexpected(strays.error());
-  for (const store::HeldTeaching& stray : *strays) {
-    const auto dropped = keeper_.DropStray(stray.key);
+Result<void> Upkeep::SeeToOrphans(Time now) {
+  const auto orphans = orphans_.Next(now);
+  if (!orphans) return tl::unexpected(orphans.error());
+  for (const store::HeldTeaching& orphan : *orphans) {
+    const auto dropped = keeper_.DropOrphan(orphan.key);
     if (!dropped) return tl::unexpected(dropped.error());
     if (!*dropped) continue;
-    dropped_strays_ += stray.segments;
-    spdlog::info("{} segments of {} are dropped: nobody announced it for a day", stray.segments,
-                 route::Describe(stray.key));
+    dropped_orphans_ += orphan.segments;
+    spdlog::info("{} segments of {} are dropped: nobody announced it for a day", orphan.segments,
+                 route::Describe(orphan.key));
   }
   return {};
 }

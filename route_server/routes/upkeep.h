@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "route_server/routes/store_watch.h"
+#include "services/catalog/orphans.h"
 #include "services/catalog/partial_routes.h"
-#include "services/catalog/strays.h"
 #include "services/exchange/route_keeper.h"
 
 namespace trailcast::server {
@@ -19,7 +19,7 @@ class Upkeep {
 
   // Both must outlive it.
   Upkeep(store::RouteStore& store, exchange::RouteKeeper& keeper)
-      : keeper_(keeper), watch_(store), partial_(store), strays_(store) {}
+      : keeper_(keeper), watch_(store), partial_(store), orphans_(store) {}
 
   // Works at most once a second, and writes to the log.
   void Tick(Time now);
@@ -37,19 +37,19 @@ class Upkeep {
   // Returns which of these routes are served only in part.
   [[nodiscard]] std::vector<exchange::LackingSegments> LackingOf(
       const std::vector<route::RouteInfo>& routes) const;
-  [[nodiscard]] std::uint64_t dropped_strays() const { return dropped_strays_; }  // segments
+  [[nodiscard]] std::uint64_t dropped_orphans() const { return dropped_orphans_; }  // segments
   // Returns "2 routes lack 5 segments here", or an empty text.
   [[nodiscard]] std::string Degraded() const;
 
  private:
   [[nodiscard]] Result<void> SeeToRoutes(Time now);
-  [[nodiscard]] Result<void> SeeToStrays(Time now);
+  [[nodiscard]] Result<void> SeeToOrphans(Time now);
 
   exchange::RouteKeeper& keeper_;
   StoreWatch watch_;
   catalog::PartialRoutes partial_;
-  catalog::Strays strays_;
-  std::uint64_t dropped_strays_ = 0;
+  catalog::Orphans orphans_;
+  std::uint64_t dropped_orphans_ = 0;
   Time due_{};
   std::string told_;  // the last thing that went wrong
 };

@@ -83,7 +83,7 @@ std::string Metrics::Text() const {
             over_quota.requests);
   lines.Add("segments_stray_dropped_total", kCounter,
             "Stored segments dropped because nobody announced their teaching for a day.",
-            dropped_strays);
+            dropped_orphans);
   lines.Add("routes_searched_total", kCounter,
             "Routes for which it was looked where others meet them.", joints.routes_searched);
   lines.Add("joints_proposed_total", kCounter, "Junctions found and proposed.", joints.proposed);

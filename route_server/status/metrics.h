@@ -61,7 +61,7 @@ struct Metrics {
   } mirror{};
   std::size_t partial_routes = 0;                   // complete ones that lack segments here
   std::size_t lacking_segments = 0;                 // missing from these
-  std::uint64_t dropped_strays = 0;                 // orphaned segments
+  std::uint64_t dropped_orphans = 0;                // orphaned segments
   std::map<std::string, LatencyHistogram> queries;  // by kind
 
   [[nodiscard]] std::string Text() const;

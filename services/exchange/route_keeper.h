@@ -112,7 +112,7 @@ class RouteKeeper {
   // Takes up a stored route that lacks segments, so that these are asked for.
   void Attend(const route::RouteKey& key, Time now) { (void)Find(key, now, Which::kStored); }
   // Drops the segments of a teaching that no agent announced. Returns false if one has by now.
-  [[nodiscard]] Result<bool> DropStray(const route::RouteKey& key);
+  [[nodiscard]] Result<bool> DropOrphan(const route::RouteKey& key);
   // Returns segments stored since the last call, including repaired ones.
   [[nodiscard]] std::vector<route::SegmentPiece> TakeAppended();
   // Returns segments found damaged since the last call.

@@ -183,7 +183,7 @@ void RouteKeeper::NoteDamage(const RouteKey& key, SegmentIndex index, Time now) 
       now);
 }
 
-Result<bool> RouteKeeper::DropStray(const RouteKey& key) {
+Result<bool> RouteKeeper::DropOrphan(const RouteKey& key) {
   const auto found = routes_.find(key);
   if (found != routes_.end() && found->second.scout()) return false;
   if (auto dropped = store_.DropSegments(key); !dropped) return tl::unexpected(dropped.error());

@@ -555,14 +555,14 @@ TEST_F(RouteKeeperTest, WhatARouteThatIsNotAtHandLacksIsAskedForOnceItIsAttended
 TEST_F(RouteKeeperTest, SegmentsThatNobodyAnnouncedCanBeDroppedAndOthersCannot) {
   Deliver({pieces_[0], pieces_[1]});
   Tick();
-  EXPECT_EQ(keeper_->DropStray(key_).value(), true);
+  EXPECT_EQ(keeper_->DropOrphan(key_).value(), true);
   EXPECT_THAT(store_.HeldSegments(key_).value(), testing::IsEmpty());
   Announce(2);
   Deliver({pieces_[0]});
   const auto receipts = Only<Receipt>(Tick());
   ASSERT_EQ(receipts.size(), 1U);
   EXPECT_EQ(receipts[0].durable_prefix, 1U) << "what was dropped is not confirmed any more";
-  EXPECT_EQ(keeper_->DropStray(key_).value(), false);
+  EXPECT_EQ(keeper_->DropOrphan(key_).value(), false);
   EXPECT_EQ(store_.HeldSegments(key_).value().size(), 1U);
 }
 

@@ -12,13 +12,13 @@ namespace trailcast::catalog {
 // Finds orphans: segments for which nobody can ever ask, because their teaching was never announced
 // or was deleted. It walks through the store again and again, some teachings at a time. A route
 // that is being taught is announced and grows, so it is none. It is not thread-safe.
-class Strays {
+class Orphans {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::hours kKept{24};
 
   // `store` must outlive it.
-  explicit Strays(store::RouteStore& store) : store_(store) {}
+  explicit Orphans(store::RouteStore& store) : store_(store) {}
 
   // Looks at some more teachings and returns those that were orphans with the same number of
   // segments for so long.
@@ -30,7 +30,7 @@ class Strays {
     Time since;
   };
   [[nodiscard]] static route::RouteKey BeforeAll() { return {RouteId(), TeachingId()}; }
-  [[nodiscard]] bool IsOld(const store::HeldTeaching& stray, Time now);
+  [[nodiscard]] bool IsOld(const store::HeldTeaching& orphan, Time now);
 
   store::RouteStore& store_;
   std::map<route::RouteKey, Seen> seen_;

@@ -1,18 +1,18 @@
-#include "services/catalog/strays.h"
+#include "services/catalog/orphans.h"
 
 #include <utility>
 
 namespace trailcast::catalog {
 namespace {
 
-constexpr std::size_t kStraysPage = 100;
+constexpr std::size_t kOrphansPage = 100;
 
 }  // namespace
 
-Result<std::vector<store::HeldTeaching>> Strays::Next(Time now) {
-  const auto held = store_.ListHeld(last_, kStraysPage);
+Result<std::vector<store::HeldTeaching>> Orphans::Next(Time now) {
+  const auto held = store_.ListHeld(last_, kOrphansPage);
   if (!held) return tl::unexpected(held.error());
-  const bool at_end = held->size() < kStraysPage;
+  const bool at_end = held->size() < kOrphansPage;
   const route::RouteKey first = std::exchange(last_, at_end ? BeforeAll() : held->back().key);
   std::vector<store::HeldTeaching> old;
   std::map<route::RouteKey, Seen> seen;
@@ -32,9 +32,9 @@ Result<std::vector<store::HeldTeaching>> Strays::Next(Time now) {
   return old;
 }
 
-bool Strays::IsOld(const store::HeldTeaching& stray, Time now) {
-  Seen& seen = seen_.try_emplace(stray.key, Seen{stray.segments, now}).first->second;
-  if (seen.segments != stray.segments) seen = {stray.segments, now};
+bool Orphans::IsOld(const store::HeldTeaching& orphan, Time now) {
+  Seen& seen = seen_.try_emplace(orphan.key, Seen{orphan.segments, now}).first->second;
+  if (seen.segments != orphan.segments) seen = {orphan.segments, now};
   return now >= seen.since + kKept;
 }
 
