@@ -11,12 +11,12 @@
 
 #include "services/base/told_lately.h"
 #include "services/exchange/answer_queue.h"
+#include "services/exchange/backup_responder.h"
 #include "services/exchange/integrity.h"
 #include "services/exchange/kept_route.h"
 #include "services/exchange/messages.h"
 #include "services/exchange/missing_routes.h"
 #include "services/exchange/servers_there.h"
-#include "services/exchange/stand_in.h"
 #include "services/store/route_store.h"
 
 namespace trailcast::exchange {
@@ -212,7 +212,7 @@ class RouteKeeper {
   // TakeDamaged has not returned these yet.
   std::vector<std::pair<route::RouteKey, SegmentIndex>> damaged_;
   AnswerQueue answers_;
-  StandIn stand_in_;
+  BackupResponder backup_responder_;
   ServersThere servers_;  // other servers
   MissingRoutes missing_;
   // They are apart, since the store may have room for the one and none for the other.

@@ -19,7 +19,7 @@ RouteKeeper::RouteKeeper(AgentId self, store::RouteStore& store, Catalog catalog
       integrity_(std::move(integrity)),
       options_(options),
       answers_(options.answers),
-      stand_in_(self_) {}
+      backup_responder_(self_) {}
 
 Result<std::unique_ptr<RouteKeeper>> RouteKeeper::Open(AgentId self, store::RouteStore& store,
                                                        Catalog catalog, Integrity integrity,
@@ -39,7 +39,7 @@ Result<std::unique_ptr<RouteKeeper>> RouteKeeper::Open(AgentId self, store::Rout
 }
 
 void RouteKeeper::Handle(Message message, Time now) {
-  stand_in_.Handle(message, now);
+  backup_responder_.Handle(message, now);
   servers_.Handle(message);
   if (const auto* announcement = std::get_if<RouteAnnouncement>(&message)) {
     HandleAnnouncement(*announcement, now);
@@ -165,7 +165,8 @@ void RouteKeeper::HandleRequest(const SegmentRequest& request, Time now) {
   if (request.digests_only) {
     TellDigests(request.key, *kept, held);
   } else {
-    answers_.Ask(request.key, stand_in_.Mine(request.requester, request.key, held, now), now);
+    answers_.Ask(request.key, backup_responder_.Mine(request.requester, request.key, held, now),
+                 now);
   }
 }
 

@@ -223,7 +223,7 @@ void RouteKeeper::Refuse(const Error& error, const RouteKey& key, Time now) {
 }
 
 void RouteKeeper::SendAnswers(Time now, std::vector<Message>& out) {
-  for (const auto& [key, indices] : stand_in_.Due(now)) answers_.Ask(key, indices, now);
+  for (const auto& [key, indices] : backup_responder_.Due(now)) answers_.Ask(key, indices, now);
   AnswerQueue::Answers answers = answers_.Due(
       now, options_.answer_bytes_per_tick,
       [this](const RouteKey& key, SegmentIndex index) { return store_.ReadSegment(key, index); });

@@ -1,4 +1,4 @@
-#include "services/exchange/stand_in.h"
+#include "services/exchange/backup_responder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,13 +24,13 @@ AgentStatus ServerStatus(const std::string& name, AgentMode mode = AgentMode::kW
   return status;
 }
 
-class StandInTest : public testing::Test {
+class BackupResponderTest : public testing::Test {
  protected:
-  StandInTest() {
-    for (StandIn* one : {&a_, &b_}) {
+  BackupResponderTest() {
+    for (BackupResponder* one : {&a_, &b_}) {
       for (const char* name : {"server-a", "server-b"}) one->Handle(ServerStatus(name), now_);
     }
-    StandIn looking(AgentId("server-a"));
+    BackupResponder looking(AgentId("server-a"));
     looking.Handle(ServerStatus("server-b"), now_);
     const auto is_own = [&] {
       return !looking.Mine(kRobot, owned_by_b_, Indices(0, 1), now_).empty();
@@ -44,12 +44,12 @@ class StandInTest : public testing::Test {
     EXPECT_FALSE(own);
   }
   // All that is due.
-  std::vector<SegmentIndex> Due(StandIn& one, milliseconds passed) {
+  std::vector<SegmentIndex> Due(BackupResponder& one, milliseconds passed) {
     now_ += passed;
     auto due = one.Due(now_);
     return due.contains(owned_by_b_) ? due[owned_by_b_] : std::vector<SegmentIndex>();
   }
-  std::vector<SegmentIndex> Mine(StandIn& one, std::uint32_t first, std::uint32_t end,
+  std::vector<SegmentIndex> Mine(BackupResponder& one, std::uint32_t first, std::uint32_t end,
                                  const AgentId& requester = kRobot) {
     return one.Mine(requester, owned_by_b_, Indices(first, end), now_);
   }
@@ -57,14 +57,14 @@ class StandInTest : public testing::Test {
     a_.Handle(SegmentBatch{AgentId("server-b"), {test::PieceOf(owned_by_b_, index)}}, now_);
   }
 
-  StandIn::Time now_{std::chrono::hours(1)};
-  StandIn a_{AgentId("server-a")};
-  StandIn b_{AgentId("server-b")};
+  BackupResponder::Time now_{std::chrono::hours(1)};
+  BackupResponder a_{AgentId("server-a")};
+  BackupResponder b_{AgentId("server-b")};
   unsigned number_ = 1;
   route::RouteKey owned_by_b_ = KeyNumber(number_);
 };
 
-TEST_F(StandInTest, OneOfTwoAnswersAndBothDoForSomeRoutes) {
+TEST_F(BackupResponderTest, OneOfTwoAnswersAndBothDoForSomeRoutes) {
   int of_a = 0;
   for (unsigned number = 0; number < 200; ++number) {
     const bool a = !a_.Mine(kRobot, KeyNumber(number), Indices(0, 1), now_).empty();
@@ -76,7 +76,7 @@ TEST_F(StandInTest, OneOfTwoAnswersAndBothDoForSomeRoutes) {
   EXPECT_LT(of_a, 150);
 }
 
-TEST_F(StandInTest, AloneItAnswersEverything) {
+TEST_F(BackupResponderTest, AloneItAnswersEverything) {
   a_.Handle(AgentGone{AgentId("server-b"), 7}, now_);
   EXPECT_EQ(Mine(a_, 0, 3), Indices(0, 3));
   a_.Handle(ServerStatus("server-b"), now_);
@@ -85,14 +85,14 @@ TEST_F(StandInTest, AloneItAnswersEverything) {
   EXPECT_EQ(Mine(a_, 6, 9), Indices(6, 9));
 }
 
-TEST_F(StandInTest, StandsInForWhatTheOtherDoesNotSend) {
+TEST_F(BackupResponderTest, StandsInForWhatTheOtherDoesNotSend) {
   EXPECT_THAT(Mine(a_, 0, 3), IsEmpty());
   EXPECT_THAT(Due(a_, milliseconds(299)), IsEmpty());
   EXPECT_EQ(Due(a_, milliseconds(1)), Indices(0, 3));
   EXPECT_THAT(Due(a_, milliseconds(1000)), IsEmpty()) << "once";
 }
 
-TEST_F(StandInTest, WaitsAsLongAsTheOtherSends) {
+TEST_F(BackupResponderTest, WaitsAsLongAsTheOtherSends) {
   EXPECT_THAT(Mine(a_, 0, 4), IsEmpty());
   for (const std::uint32_t index : {0U, 1U, 2U}) {
     EXPECT_THAT(Due(a_, milliseconds(200)), IsEmpty());
@@ -101,13 +101,13 @@ TEST_F(StandInTest, WaitsAsLongAsTheOtherSends) {
   EXPECT_EQ(Due(a_, milliseconds(300)), Indices(3, 4));
 }
 
-TEST_F(StandInTest, WhatIsOnItsWayToOthersIsNotWaitedFor) {
+TEST_F(BackupResponderTest, WhatIsOnItsWayToOthersIsNotWaitedFor) {
   BSends(0);
   EXPECT_THAT(Mine(a_, 0, 1), IsEmpty());
   EXPECT_THAT(Due(a_, milliseconds(2000)), IsEmpty());
 }
 
-TEST_F(StandInTest, WhoAsksAgainIsAnsweredByAll) {
+TEST_F(BackupResponderTest, WhoAsksAgainIsAnsweredByAll) {
   EXPECT_THAT(Mine(a_, 0, 2), IsEmpty());
   BSends(0);
   now_ += milliseconds(1000);
@@ -115,26 +115,26 @@ TEST_F(StandInTest, WhoAsksAgainIsAnsweredByAll) {
   EXPECT_THAT(Mine(a_, 0, 1, AgentId("robot-2")), IsEmpty()) << "who asks for the first time";
 }
 
-TEST_F(StandInTest, AServerThatHasNotGotTheRouteIsNotWaitedForEachTime) {
+TEST_F(BackupResponderTest, AServerThatHasNotGotTheRouteIsNotWaitedForEachTime) {
   EXPECT_THAT(Mine(a_, 0, 1), IsEmpty());
   EXPECT_EQ(Due(a_, milliseconds(300)), Indices(0, 1));
   EXPECT_EQ(Mine(a_, 1, 5), Indices(1, 5));
-  now_ += StandInOptions().silent_for;
+  now_ += BackupResponderOptions().silent_for;
   EXPECT_THAT(Mine(a_, 5, 9), IsEmpty()) << "it may have it by now";
 }
 
-TEST_F(StandInTest, WhatAServerAsksForIsNotLeftToItself) {
+TEST_F(BackupResponderTest, WhatAServerAsksForIsNotLeftToItself) {
   EXPECT_EQ(Mine(a_, 0, 2, AgentId("server-b")), Indices(0, 2));
 }
 
-TEST_F(StandInTest, AFloodIsNotRememberedWithoutEnd) {
+TEST_F(BackupResponderTest, AFloodIsNotRememberedWithoutEnd) {
   std::size_t mine = 0;
-  constexpr std::uint32_t kAsked = 4 * StandIn::kMostRemembered;
+  constexpr std::uint32_t kAsked = 4 * BackupResponder::kMostRemembered;
   for (std::uint32_t first = 0; first < kAsked; first += 1024) {
     mine += Mine(a_, first, first + 1024).size();
   }
-  EXPECT_EQ(Due(a_, milliseconds(300)).size(), StandIn::kMostRemembered);
-  EXPECT_EQ(mine, kAsked - StandIn::kMostRemembered) << "answered as if it were alone";
+  EXPECT_EQ(Due(a_, milliseconds(300)).size(), BackupResponder::kMostRemembered);
+  EXPECT_EQ(mine, kAsked - BackupResponder::kMostRemembered) << "answered as if it were alone";
 }
 
 }  // namespace

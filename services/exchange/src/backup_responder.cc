@@ -1,4 +1,4 @@
-#include "services/exchange/stand_in.h"
+#include "services/exchange/backup_responder.h"
 
 #include <algorithm>
 #include <functional>
@@ -30,7 +30,7 @@ std::uint64_t Weight(const AgentId& server, const route::RouteKey& key) {
 
 }  // namespace
 
-void StandIn::Handle(const Message& message, Time now) {
+void BackupResponder::Handle(const Message& message, Time now) {
   if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
     if (servers_.Contains(batch->sender)) HandleBatch(*batch, now);
     return;
@@ -40,7 +40,7 @@ void StandIn::Handle(const Message& message, Time now) {
   if (!of_own_name) servers_.Handle(message);
 }
 
-void StandIn::HandleBatch(const SegmentBatch& batch, Time now) {
+void BackupResponder::HandleBatch(const SegmentBatch& batch, Time now) {
   for (const route::SegmentPiece& piece : batch.pieces) {
     if (piece.bytes.empty()) continue;
     sent_.Touch({piece.key, piece.index}) = now;
@@ -51,8 +51,8 @@ void StandIn::HandleBatch(const SegmentBatch& batch, Time now) {
   }
 }
 
-std::vector<AgentId> StandIn::Before(const AgentId& requester, const route::RouteKey& key,
-                                     Time now) const {
+std::vector<AgentId> BackupResponder::Before(const AgentId& requester, const route::RouteKey& key,
+                                             Time now) const {
   std::vector<std::pair<std::uint64_t, AgentId>> before;
   const std::uint64_t own = Weight(self_, key);
   for (const AgentId& server : servers_.Names()) {
@@ -67,8 +67,9 @@ std::vector<AgentId> StandIn::Before(const AgentId& requester, const route::Rout
   return names;
 }
 
-std::vector<SegmentIndex> StandIn::Mine(const AgentId& requester, const route::RouteKey& key,
-                                        const std::vector<SegmentIndex>& asked, Time now) {
+std::vector<SegmentIndex> BackupResponder::Mine(const AgentId& requester,
+                                                const route::RouteKey& key,
+                                                const std::vector<SegmentIndex>& asked, Time now) {
   if (asked.empty()) return {};
   const std::vector<AgentId> before = Before(requester, key, now);
   if (before.empty()) return asked;
@@ -94,7 +95,7 @@ std::vector<SegmentIndex> StandIn::Mine(const AgentId& requester, const route::R
   return mine;
 }
 
-std::map<route::RouteKey, std::vector<SegmentIndex>> StandIn::Due(Time now) {
+std::map<route::RouteKey, std::vector<SegmentIndex>> BackupResponder::Due(Time now) {
   std::map<route::RouteKey, std::vector<SegmentIndex>> due;
   for (auto at = left_.begin(); at != left_.end();) {
     auto& [key, left] = *at;

@@ -12,7 +12,7 @@
 
 namespace trailcast::exchange {
 
-struct StandInOptions {
+struct BackupResponderOptions {
   // A server that comes before this one has this long to answer and, once it answers, between its
   // messages.
   std::chrono::milliseconds patience{300};
@@ -26,12 +26,12 @@ struct StandInOptions {
 // This makes one of several servers, which may share a store, answer an agent that lacks segments
 // of a route: the one to which the route falls (rendezvous hashing). The others hear it and back it
 // up, one after the other, for what it does not send. No clock, no I/O.
-class StandIn {
+class BackupResponder {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::size_t kMostRemembered = 16'384;  // segments that are left to others
 
-  explicit StandIn(AgentId self, StandInOptions options = {})
+  explicit BackupResponder(AgentId self, BackupResponderOptions options = {})
       : self_(std::move(self)), options_(options) {}
 
   // Takes in which servers are present, and what they send.
@@ -56,7 +56,7 @@ class StandIn {
                                             Time now) const;
 
   AgentId self_;
-  StandInOptions options_;
+  BackupResponderOptions options_;
   ServersThere servers_;  // other servers
   std::map<route::RouteKey, Left> left_;
   std::size_t remembered_ = 0;  // in left_
