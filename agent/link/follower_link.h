@@ -20,9 +20,9 @@
 #include "agent/link/route_wish.h"
 #include "agent/session/replay_session.h"
 #include "services/base/mailbox.h"
+#include "services/exchange/peer_cache.h"
 #include "services/exchange/route_fetcher.h"
 #include "services/exchange/route_finder.h"
-#include "services/exchange/spare_holder.h"
 #include "services/program/presence.h"
 #include "services/store/route_store.h"
 
@@ -151,7 +151,7 @@ class FollowerLink {
   std::optional<route::RouteInfo> stored_;  // the version in the own store
   std::optional<exchange::RouteFetcher> fetcher_;
   std::unique_ptr<RouteAhead> ahead_;
-  exchange::SpareHolder spare_;
+  exchange::PeerCache peer_cache_;
   PlaceNote place_note_;
   std::optional<NotedPlace> place_;  // the last one of which the robot was sure
   std::optional<Time> noted_;        // when that was noted

@@ -77,7 +77,7 @@ Swarm::Follower& Swarm::AddFollower() {
 
 void Swarm::AddLender() {
   lenders_exchange_ = Open(exchange::FollowerTopics());
-  lender_ = std::make_unique<exchange::SpareHolder>(
+  lender_ = std::make_unique<exchange::PeerCache>(
       AgentId("lender"), [this](const route::RouteKey& key, SegmentIndex index) {
         return scout_store_.ReadSegment(key, index);
       });

@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
+#include "services/exchange/peer_cache.h"
 #include "services/exchange/route_fetcher.h"
 #include "services/exchange/route_keeper.h"
 #include "services/exchange/route_sender.h"
-#include "services/exchange/spare_holder.h"
 #include "tests/contract/network.h"
 #include "tests/support/faulty_exchange.h"
 #include "tests/support/memory_store.h"
@@ -85,7 +85,7 @@ class Swarm {
   std::unique_ptr<exchange::RouteKeeper> keeper_;
   std::vector<std::unique_ptr<Follower>> followers_;
   std::unique_ptr<exchange::FaultyExchange> lenders_exchange_;
-  std::unique_ptr<exchange::SpareHolder> lender_;
+  std::unique_ptr<exchange::PeerCache> lender_;
 };
 
 }  // namespace trailcast::test

@@ -45,7 +45,7 @@ FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::R
       store_(std::move(store)),
       exchange_(std::move(exchange)),
       finder_(options_.agent, options_.route, options_.revision),
-      spare_(
+      peer_cache_(
           options_.agent,
           [this](const route::RouteKey& key, SegmentIndex index) {
             return store_->ReadSegment(key, index);
@@ -75,7 +75,7 @@ Result<void> FollowerLink::Start() {
     const auto handle = [this](const exchange::Message& message) {
       finder_.Handle(message);
       neighbours_.Handle(message, steady_clock::now());
-      spare_.Handle(message, steady_clock::now());
+      peer_cache_.Handle(message, steady_clock::now());
       HearOperators(message);
     };
     if (auto claimed = presence_->Claim(handle, options_.stop); !claimed) return claimed;
@@ -191,7 +191,7 @@ void FollowerLink::Trade() {
     HearOperators(message);
     presence_->Handle(message);
     neighbours_.Handle(message, now);
-    spare_.Handle(message, now);
+    peer_cache_.Handle(message, now);
     if (ahead_) ahead_->Handle(message, now);
     if (fetcher_) {
       fetcher_->Handle(std::move(message), now);
@@ -213,7 +213,7 @@ void FollowerLink::Trade() {
 // It listens to segments of the route that it fetches, as long as it does, and of routes that it
 // would serve to peers.
 Result<void> FollowerLink::Listen(Time now) {
-  std::set<route::RouteKey> routes = spare_.ListensTo(now);
+  std::set<route::RouteKey> routes = peer_cache_.ListensTo(now);
   const bool fetches = fetcher_ && !fetcher_->Complete() && !fetcher_->deleted();
   if (fetches) routes.insert(route_->key);
   if (const auto ahead = ahead_ ? ahead_->listens_to() : std::nullopt) routes.insert(*ahead);
@@ -230,9 +230,9 @@ void FollowerLink::Say(steady_clock::time_point now) {
   if (ahead_ && fed_all_) {
     for (exchange::Message& ahead : ahead_->Tick(now)) outgoing.push_back(std::move(ahead));
   }
-  for (exchange::Message& lent : spare_.Tick(now)) outgoing.push_back(std::move(lent));
+  for (exchange::Message& lent : peer_cache_.Tick(now)) outgoing.push_back(std::move(lent));
   const auto told = [this, now](const exchange::Message& message, bool sent) {
-    if (!sent) spare_.NotSent(message, now);
+    if (!sent) peer_cache_.NotSent(message, now);
   };
   if (auto sent = exchange::PublishAll(*exchange_, outgoing, told); !sent) {
     spdlog::debug("{}", sent.error().message);
@@ -277,7 +277,7 @@ Result<void> FollowerLink::TellHeld() {
   auto held = HeldRevisions(*store_);
   if (!held) return tl::unexpected(held.error());
   held_revisions_ = std::move(*held);
-  spare_.Hold(held_revisions_);
+  peer_cache_.Hold(held_revisions_);
   return {};
 }
 

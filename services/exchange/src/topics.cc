@@ -30,7 +30,7 @@ TopicUse ScoutTopics() {
 TopicUse FollowerTopics() {
   return {.write = {Topic::kSegmentRequests, Topic::kCatalogRequests, Topic::kAgents},
           .read = {Topic::kRoutes, Topic::kCatalogReplies, Topic::kNow},
-          // Segments that it may lend (SpareHolder) are asked for more than once.
+          // Segments that it may lend (PeerCache) are asked for more than once.
           .overhear = {Topic::kSegmentRequests},
           // Commands are repeated until they are answered.
           .write_rarely = {Topic::kSegments, Topic::kNowAnswers},

@@ -1,4 +1,4 @@
-#include "services/exchange/spare_holder.h"
+#include "services/exchange/peer_cache.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@ using test::Indices;
 using test::Only;
 using testing::IsEmpty;
 
-class SpareHolderTest : public testing::Test {
+class PeerCacheTest : public testing::Test {
  protected:
-  SpareHolderTest() { holder_.Hold({key_}); }
+  PeerCacheTest() { holder_.Hold({key_}); }
 
   void Ask(const std::string& who, const route::RouteKey& key, std::uint32_t first,
            std::uint32_t end) {
@@ -33,8 +33,8 @@ class SpareHolderTest : public testing::Test {
 
   const route::RouteKey key_ = test::KeyNumber(1);
   const std::vector<route::SegmentPiece> pieces_ = test::PiecesOf(key_, 4);
-  SpareHolder::Time now_{};
-  SpareHolder holder_{
+  PeerCache::Time now_{};
+  PeerCache holder_{
       AgentId("robot-7"),
       [this](const route::RouteKey&, SegmentIndex index) -> Result<route::SegmentPiece> {
         if (index.value() >= pieces_.size()) {
@@ -48,7 +48,7 @@ class SpareHolderTest : public testing::Test {
       {.patience = milliseconds(100)}};
 };
 
-TEST_F(SpareHolderTest, AnswersWhatTheSameAgentAskedForTwice) {
+TEST_F(PeerCacheTest, AnswersWhatTheSameAgentAskedForTwice) {
   Ask("server", key_, 1, 3);
   EXPECT_THAT(SentAfter(milliseconds(1000)), IsEmpty());
   Ask("other", key_, 1, 3);
@@ -59,7 +59,7 @@ TEST_F(SpareHolderTest, AnswersWhatTheSameAgentAskedForTwice) {
   EXPECT_THAT(SentAfter(milliseconds(1000)), IsEmpty()) << "once";
 }
 
-TEST_F(SpareHolderTest, WhatABlockedLinkDidNotTakeIsLentLaterUnlessSomebodyElseDid) {
+TEST_F(PeerCacheTest, WhatABlockedLinkDidNotTakeIsLentLaterUnlessSomebodyElseDid) {
   Ask("server", key_, 0, 2);
   Ask("server", key_, 0, 2);
   now_ += milliseconds(200);
@@ -70,14 +70,14 @@ TEST_F(SpareHolderTest, WhatABlockedLinkDidNotTakeIsLentLaterUnlessSomebodyElseD
   EXPECT_EQ(SentAfter(milliseconds(100)), std::vector{pieces_[1]});
 }
 
-TEST_F(SpareHolderTest, LeavesItToWhoeverAnswersFirst) {
+TEST_F(PeerCacheTest, LeavesItToWhoeverAnswersFirst) {
   Ask("server", key_, 0, 2);
   Ask("server", key_, 0, 2);
   holder_.Handle(SegmentBatch{AgentId("scout-1"), {pieces_[0]}}, now_);
   EXPECT_EQ(SentAfter(milliseconds(200)), std::vector{pieces_[1]});
 }
 
-TEST_F(SpareHolderTest, ListensToOthersForAWhileOnceItWasAskedInVain) {
+TEST_F(PeerCacheTest, ListensToOthersForAWhileOnceItWasAskedInVain) {
   EXPECT_THAT(holder_.ListensTo(now_), IsEmpty());
   Ask("server", key_, 0, 1);
   EXPECT_THAT(holder_.ListensTo(now_), IsEmpty()) << "left to others, who need not be heard";
@@ -87,7 +87,7 @@ TEST_F(SpareHolderTest, ListensToOthersForAWhileOnceItWasAskedInVain) {
   EXPECT_THAT(holder_.ListensTo(now_ + milliseconds(10'000)), IsEmpty());
 }
 
-TEST_F(SpareHolderTest, TellsADigestThatWasAskedForInVainUnlessAnotherDoes) {
+TEST_F(PeerCacheTest, TellsADigestThatWasAskedForInVainUnlessAnotherDoes) {
   const SegmentRequest knock{AgentId("robot-1"), key_, Indices(2, 3), true};
   route::SegmentPiece named = pieces_[2];
   named.bytes.clear();
@@ -98,7 +98,7 @@ TEST_F(SpareHolderTest, TellsADigestThatWasAskedForInVainUnlessAnotherDoes) {
   EXPECT_THAT(SentAfter(milliseconds(200)), IsEmpty());
 }
 
-TEST_F(SpareHolderTest, ADigestIsNoAnswerToWhoAskedForTheSegment) {
+TEST_F(PeerCacheTest, ADigestIsNoAnswerToWhoAskedForTheSegment) {
   for (const bool digests_only : {true, false, true, false}) {
     holder_.Handle(SegmentRequest{AgentId("robot-1"), key_, Indices(2, 3), digests_only}, now_);
   }
@@ -108,7 +108,7 @@ TEST_F(SpareHolderTest, ADigestIsNoAnswerToWhoAskedForTheSegment) {
   EXPECT_EQ(SentAfter(milliseconds(200)), std::vector{pieces_[2]});
 }
 
-TEST_F(SpareHolderTest, WhileAServerIsThereItLendsToServersOnly) {
+TEST_F(PeerCacheTest, WhileAServerIsThereItLendsToServersOnly) {
   AgentStatus server;
   server.agent = AgentId("server");
   server.instance = 5;
@@ -125,7 +125,7 @@ TEST_F(SpareHolderTest, WhileAServerIsThereItLendsToServersOnly) {
   EXPECT_EQ(SentAfter(milliseconds(200)), std::vector{pieces_[0]});
 }
 
-TEST_F(SpareHolderTest, AnswersForWholeRevisionsOnlyAndForWhatItCanRead) {
+TEST_F(PeerCacheTest, AnswersForWholeRevisionsOnlyAndForWhatItCanRead) {
   const route::RouteKey other = test::KeyNumber(2);
   for (int time = 0; time < 2; ++time) {
     Ask("server", other, 0, 1);
@@ -134,13 +134,13 @@ TEST_F(SpareHolderTest, AnswersForWholeRevisionsOnlyAndForWhatItCanRead) {
   EXPECT_EQ(SentAfter(milliseconds(200)), std::vector{pieces_[3]});
 }
 
-TEST_F(SpareHolderTest, AFloodOfRequestsIsNotRememberedWithoutEnd) {
+TEST_F(PeerCacheTest, AFloodOfRequestsIsNotRememberedWithoutEnd) {
   int read = 0;
-  SpareHolder holder(AgentId("robot-7"),
-                     [&](const route::RouteKey&, SegmentIndex) -> Result<route::SegmentPiece> {
-                       ++read;
-                       return Fail(ErrorCode::kNotFound, "made up");
-                     });
+  PeerCache holder(AgentId("robot-7"),
+                   [&](const route::RouteKey&, SegmentIndex) -> Result<route::SegmentPiece> {
+                     ++read;
+                     return Fail(ErrorCode::kNotFound, "made up");
+                   });
   holder.Hold({key_});
   for (std::uint32_t first = 0; first < 50'000; first += 1000) {
     for (int time = 0; time < 2; ++time) {
@@ -151,13 +151,12 @@ TEST_F(SpareHolderTest, AFloodOfRequestsIsNotRememberedWithoutEnd) {
   EXPECT_EQ(read, 16'384);
 }
 
-TEST_F(SpareHolderTest, SendsALongAnswerInParts) {
+TEST_F(PeerCacheTest, SendsALongAnswerInParts) {
   const auto many = test::PiecesOf(key_, 64, 5000);
-  SpareHolder holder(
-      AgentId("robot-7"),
-      [&](const route::RouteKey&, SegmentIndex index) -> Result<route::SegmentPiece> {
-        return many[index.value()];
-      });
+  PeerCache holder(AgentId("robot-7"),
+                   [&](const route::RouteKey&, SegmentIndex index) -> Result<route::SegmentPiece> {
+                     return many[index.value()];
+                   });
   holder.Hold({key_});
   for (int time = 0; time < 2; ++time) {
     holder.Handle(SegmentRequest{AgentId("server"), key_, Indices(0, 64)}, now_);
@@ -174,7 +173,7 @@ TEST_F(SpareHolderTest, SendsALongAnswerInParts) {
   EXPECT_GE(ticks, 4U);
 }
 
-TEST_F(SpareHolderTest, TellsAServerThatLacksARouteAllAboutIt) {
+TEST_F(PeerCacheTest, TellsAServerThatLacksARouteAllAboutIt) {
   const SegmentRequest who_has{AgentId("server"), key_, {}};
   holder_.Handle(who_has, now_);
   now_ += milliseconds(1000);

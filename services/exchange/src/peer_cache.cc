@@ -1,4 +1,4 @@
-#include "services/exchange/spare_holder.h"
+#include "services/exchange/peer_cache.h"
 
 #include <string_view>
 
@@ -17,8 +17,7 @@ constexpr std::chrono::milliseconds kAgainAfter{50};
 
 }  // namespace
 
-SpareHolder::SpareHolder(AgentId self, ReadPiece read, ReadInfo read_info,
-                         SpareHolderOptions options)
+PeerCache::PeerCache(AgentId self, ReadPiece read, ReadInfo read_info, PeerCacheOptions options)
     : self_(std::move(self)),
       read_(std::move(read)),
       read_info_(std::move(read_info)),
@@ -27,11 +26,11 @@ SpareHolder::SpareHolder(AgentId self, ReadPiece read, ReadInfo read_info,
   patience_ = options_.patience + options_.patience * static_cast<int>(share) / 1024;
 }
 
-void SpareHolder::Hold(const std::vector<route::RouteKey>& revisions) {
+void PeerCache::Hold(const std::vector<route::RouteKey>& revisions) {
   held_ = {revisions.begin(), revisions.end()};
 }
 
-void SpareHolder::Handle(const Message& message, Time now) {
+void PeerCache::Handle(const Message& message, Time now) {
   if (const auto* request = std::get_if<SegmentRequest>(&message)) HandleRequest(*request, now);
   if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
     for (const route::SegmentPiece& piece : batch->pieces) {
@@ -46,7 +45,7 @@ void SpareHolder::Handle(const Message& message, Time now) {
   servers_.Handle(message);
 }
 
-void SpareHolder::HandleRequest(const SegmentRequest& request, Time now) {
+void PeerCache::HandleRequest(const SegmentRequest& request, Time now) {
   if (!held_.contains(request.key)) return;
   const bool of_server = servers_.Contains(request.requester);
   if (!servers_.empty() && !of_server) return;
@@ -65,7 +64,7 @@ void SpareHolder::HandleRequest(const SegmentRequest& request, Time now) {
   }
 }
 
-std::set<route::RouteKey> SpareHolder::ListensTo(Time now) const {
+std::set<route::RouteKey> PeerCache::ListensTo(Time now) const {
   std::set<route::RouteKey> routes;
   for (const auto& [key, until] : listens_until_) {
     if (now < until) routes.insert(key);
@@ -73,7 +72,7 @@ std::set<route::RouteKey> SpareHolder::ListensTo(Time now) const {
   return routes;
 }
 
-std::vector<Message> SpareHolder::Tick(Time now) {
+std::vector<Message> PeerCache::Tick(Time now) {
   std::erase_if(listens_until_, [now](const auto& entry) { return now >= entry.second; });
   SegmentBatch batch{.sender = self_, .pieces = {}};
   std::size_t bytes = 0;
@@ -106,7 +105,7 @@ std::vector<Message> SpareHolder::Tick(Time now) {
   return messages;
 }
 
-void SpareHolder::NotSent(const Message& message, Time now) {
+void PeerCache::NotSent(const Message& message, Time now) {
   if (const auto* batch = std::get_if<SegmentBatch>(&message)) {
     for (const route::SegmentPiece& piece : batch->pieces) {
       to_answer_.try_emplace({piece.key, piece.index},

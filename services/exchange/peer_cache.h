@@ -14,7 +14,7 @@
 
 namespace trailcast::exchange {
 
-struct SpareHolderOptions {
+struct PeerCacheOptions {
   // Others have this long to answer first. It is multiplied by one to two, depending on the
   // holder's name, so that one of many holders answers and the others hear it.
   std::chrono::milliseconds patience{300};
@@ -28,7 +28,7 @@ struct SpareHolderOptions {
 // was asked for in vain. The first request is left to the scout and to other servers, and what
 // another agent answers is forgotten, so that a busy link carries nothing twice. No clock, no I/O:
 // messages go in, messages come out.
-class SpareHolder {
+class PeerCache {
  public:
   using Time = std::chrono::steady_clock::time_point;
   // Reads from the owner's store. A segment that cannot be read is not sent.
@@ -37,8 +37,7 @@ class SpareHolder {
   using ReadInfo = std::function<Result<std::optional<route::RouteInfo>>(const route::RouteKey&)>;
 
   // With `read_info` it also answers a server that asks who has a route that the server lacks.
-  SpareHolder(AgentId self, ReadPiece read, ReadInfo read_info = {},
-              SpareHolderOptions options = {});
+  PeerCache(AgentId self, ReadPiece read, ReadInfo read_info = {}, PeerCacheOptions options = {});
 
   // Sets the revisions that are whole in the owner's store.
   void Hold(const std::vector<route::RouteKey>& revisions);
@@ -63,7 +62,7 @@ class SpareHolder {
   AgentId self_;
   ReadPiece read_;
   ReadInfo read_info_;
-  SpareHolderOptions options_;
+  PeerCacheOptions options_;
   std::chrono::milliseconds patience_;
   std::set<route::RouteKey> held_;
   ServersThere servers_;
