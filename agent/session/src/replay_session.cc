@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "agent/session/src/eyes.h"
 #include "agent/session/src/features/feature_follower.h"
 #include "agent/session/src/frame_pace.h"
+#include "agent/session/src/front_end.h"
 #include "agent/session/src/mount_watch.h"
 #include "agent/session/src/place/known_route.h"
 #include "agent/session/src/place/place_keeper.h"
@@ -50,26 +50,26 @@ struct ReplaySession::State {
   State(const ReplayMethodOptions& method, const route::RouteInfo& info)
       : options(method),
         route(info.segment_count),
-        eyes(IntakeOf(method), !AsPrinted(method.method)),
+        front_end(IntakeOf(method), !AsPrinted(method.method)),
         place(info.image_width_px),
         scout{info.image_width_px, info.image_height_px},
         by_views(method, route, place) {
-    by_features.emplace(method, scout, route, eyes, place);
+    by_features.emplace(method, scout, route, front_end, place);
     if (method.take_experience) views_met.emplace(info.image_width_px, info.image_height_px);
   }
 
   // Our own method goes by what is recognised if nothing tells how the robot or the scout moved.
   [[nodiscard]] bool ByViews() const {
     return options.method == ReplayMethod::kDefault &&
-           !(eyes.knows_motion() && route.segments().front().has_odometry);
+           !(front_end.knows_motion() && route.segments().front().has_odometry);
   }
   [[nodiscard]] ReplayStep StepWithoutPicture(const std::string& why);
   void NoteTime(SensorTime stamp);
   void StartPlace(int width_px);
-  bool Locate(const Seen& seen);  // true if it examined what is recognised
-  void Doubt(Seen& seen) const;
+  bool Locate(const FrameInput& seen);  // true if it examined what is recognised
+  void Doubt(FrameInput& seen) const;
   [[nodiscard]] Evidence EvidenceOf(const ReplayStep& step) const;
-  [[nodiscard]] ReplayStep Follow(const Seen& seen, bool looked);
+  [[nodiscard]] ReplayStep Follow(const FrameInput& seen, bool looked);
   [[nodiscard]] bool CarriedByOdometry(const ReplayStep& features) const;
   [[nodiscard]] bool ViewsKnowBetter(const ReplayStep& features, const ReplayStep& views) const;
   [[nodiscard]] ReplayStep Turned(double turn_deg, const Observation& observation);
@@ -77,7 +77,7 @@ struct ReplaySession::State {
 
   ReplayMethodOptions options;
   KnownRoute route;
-  Eyes eyes;
+  FrontEnd front_end;
   UprightWatch upright;
   FramePace pace;
   PlaceKeeper place;
@@ -140,7 +140,7 @@ void ReplaySession::State::StartPlace(int width_px) {
 
 // A robot that is sure of many features asks only now and then what is recognised of the route. One
 // that goes by what is recognised asks unless its picture stands still.
-bool ReplaySession::State::Locate(const Seen& seen) {
+bool ReplaySession::State::Locate(const FrameInput& seen) {
   if (!begun) StartPlace(seen.frame->width);
   FrameMotion along{seen.measured,           seen.told,  seen.flow, seen.dt_s,
                     seen.unknown.distance_m, seen.frozen};
@@ -150,7 +150,7 @@ bool ReplaySession::State::Locate(const Seen& seen) {
   }
   place.Move(along);
   const bool asks = ByViews() ? place.HasMoved() : steers_by_views;
-  const bool few = std::ssize(eyes.tracker().Current()) < kFewTracked;
+  const bool few = std::ssize(front_end.tracker().Current()) < kFewTracked;
   const bool looks = asks || few || standing.trust != Trust::kSure || place.LookIsDue();
   if (looks) place.LookAt(*seen.followed_in, seen.frame->width);
   return looks;
@@ -165,7 +165,7 @@ Evidence ReplaySession::State::EvidenceOf(const ReplayStep& step) const {
 
 // Where the pictures contradict odometry, the robot may have come as far as the scout did in that
 // time, with the turns that this takes, beside what odometry tells.
-void ReplaySession::State::Doubt(Seen& seen) const {
+void ReplaySession::State::Doubt(FrameInput& seen) const {
   const double doubt = seen.frozen ? 1.0 : 1.0 - place.TrustInOdometry().value_or(1.0);
   if (doubt < kDoubted || !seen.driven) return;
   const double come_m = std::max(std::abs(seen.driven->distance_m), place.PaceAt_m(seen.dt_s));
@@ -184,7 +184,7 @@ bool ReplaySession::State::ViewsKnowBetter(const ReplayStep& features,
   // A handful of another camera's features agree with a place some metres off, which are too few to
   // drive by.
   constexpr int kToDriveBy = 10;
-  if (eyes.drives() && place.agreed_now() < kToDriveBy) return false;
+  if (front_end.drives() && place.agreed_now() < kToDriveBy) return false;
   if (views.state == ReplayState::kArrived) return !follows;
   return views.state == ReplayState::kFollowing && (!follows || features.trust == Trust::kUnsure);
 }
@@ -197,12 +197,12 @@ bool ReplaySession::State::CarriedByOdometry(const ReplayStep& features) const {
          place.TrustInOdometry().value_or(0.0) >= kBelieved;
 }
 
-ReplayStep ReplaySession::State::Follow(const Seen& seen, bool looked) {
+ReplayStep ReplaySession::State::Follow(const FrameInput& seen, bool looked) {
   if (ByViews()) {
     steers_by_views = true;
     ReplayStep views = by_views.Step(seen.looked_s);
     // Their flow tells whether the robot moves.
-    if (looked) eyes.FollowSomeOf(place.look().seen);
+    if (looked) front_end.FollowSomeOf(place.look().seen);
     standing = StandingOf(views);
     return views;
   }
@@ -228,15 +228,15 @@ ReplayStep ReplaySession::State::Follow(const Seen& seen, bool looked) {
 
 // The earlier frames were misread. The robot stands in this frame, and begins with the next.
 ReplayStep ReplaySession::State::Turned(double turn_deg, const Observation& observation) {
-  vision::IntakeOptions intake = eyes.intake();
+  vision::IntakeOptions intake = front_end.intake();
   intake.roll_deg = RollAfter(intake.roll_deg, turn_deg);
   turned = fmt::format(
       "{}: its pictures are turned by {:g} degrees from here on; --camera-roll {:g} has it so from "
       "the beginning",
       upright.Text(), turn_deg, intake.roll_deg);
-  eyes.Turn(intake);
-  picture = eyes.Pass(observation);
-  by_features.emplace(options, scout, route, eyes, place);
+  front_end.Turn(intake);
+  picture = front_end.Pass(observation);
+  by_features.emplace(options, scout, route, front_end, place);
   if (left) by_features->GoOnFrom(*left);
   of_features = {};
   standing = {ReplayState::kBlind, Trust::kSeeking, "turns its pictures as its camera hangs"};
@@ -250,10 +250,11 @@ ReplayStep ReplaySession::State::Turned(double turn_deg, const Observation& obse
 // Nothing that it would do on such pictures is right, since left is right, or up.
 ReplayStep ReplaySession::State::StandMisturned() {
   misturned = true;
-  const double roll_deg = RollAfter(eyes.intake().roll_deg, *eyes.mount().roll_by_told_deg());
+  const double roll_deg =
+      RollAfter(front_end.intake().roll_deg, *front_end.mount().roll_by_told_deg());
   standing = {ReplayState::kLost, Trust::kLost,
               fmt::format("{}. It stands rather than steer by that: {} with --camera-roll {:g}",
-                          eyes.mount().Text(),
+                          front_end.mount().Text(),
                           upright.upright() ? "teach the route again, whose pictures are so, too,"
                                             : "begin again",
                           roll_deg)};
@@ -304,14 +305,14 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   s.NoteTime(observation.stamp);
   s.picture = &observation.image;
   s.passed = false;
-  auto seen = s.eyes.See(observation);
+  auto seen = s.front_end.See(observation);
   if (!seen) {
     if (seen.error().code != ErrorCode::kInvalidArgument) return tl::unexpected(seen.error());
     return s.StepWithoutPicture(seen.error().message);
   }
   s.without_picture_s = 0.0;
   const bool by_views = !s.route.segments().empty() && s.ByViews();
-  s.eyes.Track(*seen, by_views ? FollowedFor::kFlow : FollowedFor::kPlace);
+  s.front_end.Track(*seen, by_views ? FollowedFor::kFlow : FollowedFor::kPlace);
   s.picture = seen->frame;
   seen->looked_s = s.looked_s;
   if (!UsesOdometry(s.options.method)) seen->driven.reset();
@@ -319,7 +320,8 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
   if (s.route.segments().empty()) return s.by_features->Report({}, s.of_features);
   const bool looked = s.Locate(*seen);
   s.Doubt(*seen);
-  if (s.eyes.mount().roll_by_told_deg().value_or(0.0) != 0.0) return s.last = s.StandMisturned();
+  if (s.front_end.mount().roll_by_told_deg().value_or(0.0) != 0.0)
+    return s.last = s.StandMisturned();
   if (const auto turn_deg = s.upright.Look(*seen, s.place)) {
     return s.last = s.Turned(*turn_deg, observation);
   }
@@ -339,7 +341,7 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
 }
 
 void ReplaySession::Pass(const Observation& observation) {
-  state_->picture = state_->eyes.Pass(observation);
+  state_->picture = state_->front_end.Pass(observation);
   state_->passed = true;
 }
 
@@ -353,7 +355,7 @@ std::optional<refresh::Visit> ReplaySession::TakeVisit() {
 
 std::optional<OwnLens> ReplaySession::lens() const {
   auto lens = state_->by_features->lens();
-  if (lens) lens->roll_deg = state_->eyes.intake().roll_deg;
+  if (lens) lens->roll_deg = state_->front_end.intake().roll_deg;
   return lens;
 }
 
@@ -362,7 +364,8 @@ const image::GrayImage* ReplaySession::picture() const { return state_->picture;
 std::vector<replay::FeatureView> ReplaySession::ViewFeatures(const ReplayStep& step) const {
   const replay::Follower* follower = state_->by_features->follower();
   if (follower == nullptr || state_->passed) return {};
-  return replay::ViewFeatures(*follower, state_->eyes.tracker().Current(), step.decision.roll_rad);
+  return replay::ViewFeatures(*follower, state_->front_end.tracker().Current(),
+                              step.decision.roll_rad);
 }
 
 }  // namespace trailcast::agent

@@ -40,13 +40,13 @@ ConfidenceOptions ConfidenceOf(ReplayMethod method) {
 
 FeatureFollower::FeatureFollower(const ReplayMethodOptions& options,
                                  const vision::PictureSize& scout, const KnownRoute& route,
-                                 Eyes& eyes, PlaceKeeper& place)
+                                 FrontEnd& front_end, PlaceKeeper& place)
     : options_(options),
       scout_width_px_(scout.width),
       route_(route),
-      eyes_(eyes),
+      front_end_(front_end),
       place_(place),
-      search_(!AsPrinted(options.method), scout.width, eyes, place),
+      search_(!AsPrinted(options.method), scout.width, front_end, place),
       confidence_(ConfidenceOf(options.method)),
       passing_(options.passing),
       look_around_(AsPrinted(options.method) ? 0.0 : options.look_around_rad),
@@ -57,10 +57,10 @@ FeatureFollower::FeatureFollower(const ReplayMethodOptions& options,
   }
 }
 
-replay::FollowStep FeatureFollower::Step(const Seen& seen, Standing& standing) {
+replay::FollowStep FeatureFollower::Step(const FrameInput& seen, Standing& standing) {
   const replay::FollowStep step = Steer(seen, standing);
   if (experience_ && follower_) {
-    experience_->Look(seen, *follower_, eyes_.tracker().Current(),
+    experience_->Look(seen, *follower_, front_end_.tracker().Current(),
                       standing.trust == Trust::kSure && !confidence_.recognised_only());
   }
   return step;
@@ -78,7 +78,7 @@ std::optional<OwnLens> FeatureFollower::lens() const {
   return OwnLens{focal->px / frame_width_px_, focal->sigma};
 }
 
-replay::FollowStep FeatureFollower::Steer(const Seen& seen, Standing& standing) {
+replay::FollowStep FeatureFollower::Steer(const FrameInput& seen, Standing& standing) {
   search_.Open(*seen.frame);
   frame_width_px_ = seen.frame->width;
   if (!focal_ && options_.lens) {
@@ -90,7 +90,7 @@ replay::FollowStep FeatureFollower::Steer(const Seen& seen, Standing& standing) 
   replay::FollowStep step;
   if (!follower_ || standing.state == ReplayState::kWaiting) {
     if (!BeginNext(seen, standing)) return LookAroundForAny(seen, standing);
-    step = follower_->Step({eyes_.tracker().Current(), seen.driven, seen.unknown});
+    step = follower_->Step({front_end_.tracker().Current(), seen.driven, seen.unknown});
     Judge(step, seen, standing);
   } else {
     step = follower_->turning() ? Turn(seen, standing) : Go(seen, standing);
@@ -114,7 +114,7 @@ void FeatureFollower::RefuseReverse(Standing& standing) const {
 
 // Turns on the spot before a segment, by odometry, and by the segment's features once they come
 // into view. Then the robot has to be sure of them before it drives on.
-replay::FollowStep FeatureFollower::Turn(const Seen& seen, Standing& standing) {
+replay::FollowStep FeatureFollower::Turn(const FrameInput& seen, Standing& standing) {
   const replay::FollowStep step = follower_->Step({seen.features, seen.driven, seen.unknown});
   const bool agrees =
       step.agreeing >= confidence_.options().min_features || place_.agreed_now() >= kEnoughAgreed;
@@ -145,7 +145,7 @@ replay::FollowStep FeatureFollower::Turn(const Seen& seen, Standing& standing) {
   return step;
 }
 
-replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
+replay::FollowStep FeatureFollower::Go(const FrameInput& seen, Standing& standing) {
   const SegmentIndex before = follower_->segment().index;
   replay::FollowStep step =
       follower_->Step({seen.features, seen.driven, seen.unknown,
@@ -179,7 +179,7 @@ replay::FollowStep FeatureFollower::Go(const Seen& seen, Standing& standing) {
 }
 
 // Notes obstacles, for the next frame to steer by.
-void FeatureFollower::LookWhatStands(const replay::FollowStep& step, const Seen& seen,
+void FeatureFollower::LookWhatStands(const replay::FollowStep& step, const FrameInput& seen,
                                      const Standing& standing) {
   if (seen.stands == nullptr || !step.offset || follower_->segment().reverse) return;
   const SegmentIndex index = follower_->segment().index;
@@ -205,10 +205,10 @@ int FeatureFollower::InPicture() const {
       }));
 }
 
-Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const Seen& seen) const {
+Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const FrameInput& seen) const {
   const route::Segment& segment = follower_->segment();
   Sighting sighting{segment.index.value(), static_cast<int>(segment.features.size()), step.agreeing,
-                    seen.usual_flow < kRushes ? eyes_.tracker().losses().not_returned : 0};
+                    seen.usual_flow < kRushes ? front_end_.tracker().losses().not_returned : 0};
   sighting.dt_s = seen.looked_s;
   sighting.carried_off = step.carried_left_m.has_value();
   if (step.offset) {
@@ -223,7 +223,7 @@ Sighting FeatureFollower::SightOf(const replay::FollowStep& step, const Seen& se
 void FeatureFollower::Compare(const RoutePoint& point, Sighting& sighting) const {
   if (!place_.where().held) return;
   // Another camera's views may be a little like those of a place some metres off.
-  const bool drives = eyes_.drives();
+  const bool drives = front_end_.drives();
   const double apart = std::abs(place_.where().along - place_.AlongOf(point));
   const bool here = apart <= (drives ? kElsewhereDriving : kElsewhere);
   const bool sees = AsPrinted(options_.method) || place_.agreed_now() >= kRecognised;
@@ -236,7 +236,8 @@ void FeatureFollower::Compare(const RoutePoint& point, Sighting& sighting) const
                         !follower_->segment().reverse && place_.agreed_now() >= kRecognised;
 }
 
-void FeatureFollower::Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing) {
+void FeatureFollower::Judge(const replay::FollowStep& step, const FrameInput& seen,
+                            Standing& standing) {
   Sighting sighting = SightOf(step, seen);
   // The belief is outweighed by as many features that lie where the taught geometry predicts them.
   sighting.elsewhere =
@@ -277,7 +278,7 @@ void FeatureFollower::NoteWay(const replay::FollowStep& step, const Standing& st
 }
 
 // A robot that would give up because it does not see its path may have been turned away from it.
-void FeatureFollower::LookAroundFirst(const Seen& seen, Standing& standing) {
+void FeatureFollower::LookAroundFirst(const FrameInput& seen, Standing& standing) {
   if (standing.trust != Trust::kLost || place_.where().held) look_around_.Rest();
   if (standing.trust != Trust::kLost || !confidence_.ever_sure() || place_.where().held) return;
   TurnToLook(seen, standing);
@@ -285,7 +286,7 @@ void FeatureFollower::LookAroundFirst(const Seen& seen, Standing& standing) {
 
 // Neither does a robot give up that may be anywhere on the route and recognises nothing of it: it
 // looks around first.
-replay::FollowStep FeatureFollower::LookAroundForAny(const Seen& seen, Standing& standing) {
+replay::FollowStep FeatureFollower::LookAroundForAny(const FrameInput& seen, Standing& standing) {
   replay::FollowStep step;
   if (lens_turn_.turns()) step.command = {0.0, lens_turn_.turn_rate_radps()};
   if (!LooksAnywhere() || standing.trust != Trust::kLost || !nowhere_.empty()) return step;
@@ -294,7 +295,7 @@ replay::FollowStep FeatureFollower::LookAroundForAny(const Seen& seen, Standing&
   return step;
 }
 
-void FeatureFollower::TurnToLook(const Seen& seen, Standing& standing) {
+void FeatureFollower::TurnToLook(const FrameInput& seen, Standing& standing) {
   if (look_around_.furthest_rad() == 0.0 || !seen.driven) return;
   if (look_around_.Turn(seen.driven->heading_change_rad, seen.looked_s)) {
     standing = {ReplayState::kBlind, Trust::kLooking,

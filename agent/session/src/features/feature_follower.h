@@ -10,8 +10,8 @@
 #include "agent/session/place_finder.h"
 #include "agent/session/replay_method.h"
 #include "agent/session/replay_step.h"
-#include "agent/session/src/eyes.h"
 #include "agent/session/src/features/feature_search.h"
+#include "agent/session/src/front_end.h"
 #include "agent/session/src/place/experience_taker.h"
 #include "agent/session/src/place/known_route.h"
 #include "agent/session/src/place/likeliest_place.h"
@@ -31,9 +31,9 @@ namespace trailcast::agent {
 // few, if the segment ends, or if the robot is elsewhere.
 class FeatureFollower {
  public:
-  // `route`, `eyes` and `place` have to outlive it.
+  // `route`, `front_end` and `place` have to outlive it.
   FeatureFollower(const ReplayMethodOptions& options, const vision::PictureSize& scout,
-                  const KnownRoute& route, Eyes& eyes, PlaceKeeper& place);
+                  const KnownRoute& route, FrontEnd& front_end, PlaceKeeper& place);
 
   // Takes a segment that has just been added to the route.
   void Learn(const route::Segment& segment);
@@ -42,7 +42,7 @@ class FeatureFollower {
 
   // Returns how to steer by what is seen, where `place` holds the robot to be. `standing` is as the
   // last frame left it, and is updated.
-  [[nodiscard]] replay::FollowStep Step(const Seen& seen, Standing& standing);
+  [[nodiscard]] replay::FollowStep Step(const FrameInput& seen, Standing& standing);
 
   // Returns the report of such a step; of {}, that nothing is followed yet.
   [[nodiscard]] ReplayStep Report(const replay::FollowStep& step, const Standing& standing) const;
@@ -81,17 +81,17 @@ class FeatureFollower {
   static constexpr int kEnoughAgreedDriving = 15;
 
   [[nodiscard]] bool by_odometry() const {
-    return eyes_.knows_motion() && UsesOdometry(options_.method);
+    return front_end_.knows_motion() && UsesOdometry(options_.method);
   }
   [[nodiscard]] bool LooksAnywhere() const {
     return !follower_ && (start_ == Start::kAnywhere || start_ == Start::kLostItsPath);
   }
   // Begins a segment (feature_follower_begin.cc). Returns false if there is nothing to follow yet.
-  [[nodiscard]] bool BeginNext(const Seen& seen, Standing& standing);
-  [[nodiscard]] bool BeginWhereLeft(const Seen& seen, Standing& standing);
-  [[nodiscard]] bool MeasuresLens(const Seen& seen, Standing& standing);
+  [[nodiscard]] bool BeginNext(const FrameInput& seen, Standing& standing);
+  [[nodiscard]] bool BeginWhereLeft(const FrameInput& seen, Standing& standing);
+  [[nodiscard]] bool MeasuresLens(const FrameInput& seen, Standing& standing);
   [[nodiscard]] double MagnificationBy(const replay::FocalLength& focal);
-  [[nodiscard]] bool BeginAnywhere(const Seen& seen, Standing& standing);
+  [[nodiscard]] bool BeginAnywhere(const FrameInput& seen, Standing& standing);
   [[nodiscard]] bool LooksElsewhere(Standing& standing);
   [[nodiscard]] bool LooksAgainIfLost() const;
   [[nodiscard]] bool BeginAbout(const RoutePoint& point);
@@ -112,21 +112,22 @@ class FeatureFollower {
   [[nodiscard]] bool IsElsewhereThanAtTheEnd() const;
   [[nodiscard]] bool HasCome() const;
 
-  [[nodiscard]] replay::FollowStep Steer(const Seen& seen, Standing& standing);
-  [[nodiscard]] replay::FollowStep Turn(const Seen& seen, Standing& standing);
-  [[nodiscard]] replay::FollowStep Go(const Seen& seen, Standing& standing);
+  [[nodiscard]] replay::FollowStep Steer(const FrameInput& seen, Standing& standing);
+  [[nodiscard]] replay::FollowStep Turn(const FrameInput& seen, Standing& standing);
+  [[nodiscard]] replay::FollowStep Go(const FrameInput& seen, Standing& standing);
   [[nodiscard]] bool EndsAtTheAxle() const;
   void RefuseReverse(Standing& standing) const;
   [[nodiscard]] int InPicture() const;
-  [[nodiscard]] Sighting SightOf(const replay::FollowStep& step, const Seen& seen) const;
+  [[nodiscard]] Sighting SightOf(const replay::FollowStep& step, const FrameInput& seen) const;
   void Compare(const RoutePoint& point, Sighting& sighting) const;
-  void Judge(const replay::FollowStep& step, const Seen& seen, Standing& standing);
+  void Judge(const replay::FollowStep& step, const FrameInput& seen, Standing& standing);
   void NoteWay(const replay::FollowStep& step, const Standing& standing);
-  void LookAroundFirst(const Seen& seen, Standing& standing);
-  [[nodiscard]] replay::FollowStep LookAroundForAny(const Seen& seen, Standing& standing);
-  void TurnToLook(const Seen& seen, Standing& standing);
+  void LookAroundFirst(const FrameInput& seen, Standing& standing);
+  [[nodiscard]] replay::FollowStep LookAroundForAny(const FrameInput& seen, Standing& standing);
+  void TurnToLook(const FrameInput& seen, Standing& standing);
   void LookAgain(double fraction, bool elsewhere);
-  void LookWhatStands(const replay::FollowStep& step, const Seen& seen, const Standing& standing);
+  void LookWhatStands(const replay::FollowStep& step, const FrameInput& seen,
+                      const Standing& standing);
   void SteerByWholeView(replay::FollowStep& step) const;
   // Returns the share of the method's speed that is driven.
   [[nodiscard]] double SpeedShare(const replay::FollowStep& step, Trust trust) const;
@@ -135,7 +136,7 @@ class FeatureFollower {
   int scout_width_px_;
   int frame_width_px_ = 0;  // 0 before the first frame
   const KnownRoute& route_;
-  Eyes& eyes_;
+  FrontEnd& front_end_;
   PlaceKeeper& place_;
   FeatureSearch search_;
   Confidence confidence_;

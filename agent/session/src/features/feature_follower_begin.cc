@@ -58,10 +58,10 @@ void FeatureFollower::GoOnFrom(const LeftAt& left) {
 }
 
 const replay::Follower& FeatureFollower::Fresh(const route::Segment& first) {
-  const WayBy way = !eyes_.knows_motion() || !first.has_odometry ? WayBy::kNothing
-                    : !place_.metric()                           ? WayBy::kSight
-                    : eyes_.has_odometry()                       ? WayBy::kOdometry
-                                                                 : WayBy::kCommands;
+  const WayBy way = !front_end_.knows_motion() || !first.has_odometry ? WayBy::kNothing
+                    : !place_.metric()                                ? WayBy::kSight
+                    : front_end_.has_odometry()                       ? WayBy::kOdometry
+                                                                      : WayBy::kCommands;
   if (fresh_ && fresh_by_ == way) return *fresh_;
   const auto known =
       place_finder_ && !place_finder_->told() ? place_finder_->left().magnification : std::nullopt;
@@ -88,7 +88,7 @@ void FeatureFollower::Begin(const route::Segment& segment) {
 }
 
 // Finds a segment to follow for a robot that stands without one.
-bool FeatureFollower::BeginNext(const Seen& seen, Standing& standing) {
+bool FeatureFollower::BeginNext(const FrameInput& seen, Standing& standing) {
   if (!follower_ && start_ == Start::kWhereLeft) return BeginWhereLeft(seen, standing);
   if (LooksAnywhere()) return BeginAnywhere(seen, standing);
   const std::size_t next = follower_ ? follower_->segment().index.value() + 1 : 0;
@@ -100,7 +100,7 @@ bool FeatureFollower::BeginNext(const Seen& seen, Standing& standing) {
   return false;
 }
 
-bool FeatureFollower::BeginWhereLeft(const Seen& seen, Standing& standing) {
+bool FeatureFollower::BeginWhereLeft(const FrameInput& seen, Standing& standing) {
   if (place_finder_->told()) {
     if (MeasuresLens(seen, standing)) return false;
     if (focal_ && !place_finder_->left().magnification) {
@@ -181,7 +181,7 @@ bool FeatureFollower::LooksAgainIfLost() const {
 }
 
 // Finds a segment for a robot that may be anywhere on the route.
-bool FeatureFollower::BeginAnywhere(const Seen& seen, Standing& standing) {
+bool FeatureFollower::BeginAnywhere(const FrameInput& seen, Standing& standing) {
   const bool turned = lens_turn_.turns();
   if (turned && MeasuresLens(seen, standing)) return false;
   Verdict verdict = place_trust_.Judge(place_.where(), seen.looked_s,
@@ -221,11 +221,11 @@ bool FeatureFollower::MayBeRecognised() const {
 
 // A robot that stands cannot tell its place and its camera's magnification apart. Turning tells the
 // second. It does so once.
-bool FeatureFollower::MeasuresLens(const Seen& seen, Standing& standing) {
+bool FeatureFollower::MeasuresLens(const FrameInput& seen, Standing& standing) {
   if (focal_ || lens_turn_.furthest_rad() == 0.0 || !seen.measured) return false;
   if (!turn_flow_) {
     turn_flow_.emplace(seen.frame->width);
-    eyes_.tracker().Detect();
+    front_end_.tracker().Detect();
   } else {
     turn_flow_->Look(seen.features, seen.measured->heading_change_rad);
   }
@@ -280,7 +280,7 @@ void FeatureFollower::CompareSome() {
     to_compare_.pop_back();
     if (magnification) search_.hand_over().KnowMagnification(*magnification);
     if (focal_ ? BeginBy(point) : BeginAbout(point)) {
-      const replay::FollowStep step = follower_->Step({eyes_.tracker().Current(), {{}}, {}});
+      const replay::FollowStep step = follower_->Step({front_end_.tracker().Current(), {{}}, {}});
       const RoutePoint there{follower_->segment().index, step.fraction};
       PlaceByFeatures place{.along = place_.AlongOf(there)};
       place.by = there.segment == point.segment ? point : RoutePoint{there.segment, 0.0};
@@ -348,7 +348,7 @@ double FeatureFollower::Unlikely(const std::optional<replay::FocalLength>& focal
 // counted along the path that leads there. Returns where that is along the route.
 std::optional<double> FeatureFollower::BeginBehind(const RoutePoint& by) {
   if (!BeginBy(by)) return std::nullopt;
-  const replay::FollowStep step = follower_->Step({eyes_.tracker().Current(), {{}}, {}});
+  const replay::FollowStep step = follower_->Step({front_end_.tracker().Current(), {{}}, {}});
   confidence_.SetFound();
   if (!step.offset) return place_.AlongOf({by.segment, step.fraction});
   const Eigen::Vector2d at(step.offset->along_m, step.offset->left_m);

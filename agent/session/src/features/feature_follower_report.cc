@@ -35,11 +35,11 @@ ReplayStep FeatureFollower::Report(const replay::FollowStep& step, const Standin
   ReplayStep report;
   report.state = state;
   report.trust = standing.trust;
-  report.sight = {0, eyes_.tracker().losses(), search_.searches()};
+  report.sight = {0, front_end_.tracker().losses(), search_.searches()};
   report.reason = standing.reason;
   report.found_share = search_.hand_over().found_share();
   report.hand_overs = search_.hand_over().count();
-  report.features = eyes_.tracker().count();
+  report.features = front_end_.tracker().count();
   if (!follower_) {
     report.command = step.command;
     return report;

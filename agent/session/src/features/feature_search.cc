@@ -22,12 +22,12 @@ void FeatureSearch::Open(const image::GrayImage& frame) {
 // times).
 void FeatureSearch::Follow(const std::vector<route::TrackedFeature>& found,
                            const replay::Follower& follower) {
-  if (eyes_.knows_motion()) eyes_.tracker().SetMagnification(follower.magnification());
-  eyes_.tracker().Follow(found);
+  if (front_end_.knows_motion()) front_end_.tracker().SetMagnification(follower.magnification());
+  front_end_.tracker().Follow(found);
 }
 
 void FeatureSearch::Note(SearchKind kind, const route::Segment& segment, bool wide) {
-  searches_.push_back(SearchOf(kind, segment, eyes_.tracker().count(), wide));
+  searches_.push_back(SearchOf(kind, segment, front_end_.tracker().count(), wide));
 }
 
 void FeatureSearch::HandOverTo(replay::Follower& follower) {
@@ -70,7 +70,7 @@ void FeatureSearch::Refresh(const replay::Follower& follower, int agreeing, doub
   since_find_s_ = 0.0;
   const std::vector<route::TrackedFeature> found = hand_over_.Again(*frame_, follower);
   if (static_cast<int>(found.size()) <= agreeing) return;
-  eyes_.tracker().Follow(found);
+  front_end_.tracker().Follow(found);
   Note(SearchKind::kLookedAgain, segment, false);
 }
 

@@ -5,7 +5,7 @@
 
 #include "agent/session/hand_over.h"
 #include "agent/session/sight.h"
-#include "agent/session/src/eyes.h"
+#include "agent/session/src/front_end.h"
 #include "agent/session/src/place/place_keeper.h"
 #include "services/replay/follower.h"
 #include "services/route/route.h"
@@ -16,9 +16,9 @@ namespace trailcast::agent {
 // there on. It keeps a record for those who watch the run.
 class FeatureSearch {
  public:
-  // `eyes` and `place` have to outlive it.
-  FeatureSearch(bool any_camera, int scout_width_px, Eyes& eyes, PlaceKeeper& place)
-      : hand_over_(any_camera, scout_width_px), eyes_(eyes), place_(place) {}
+  // `front_end` and `place` have to outlive it.
+  FeatureSearch(bool any_camera, int scout_width_px, FrontEnd& front_end, PlaceKeeper& place)
+      : hand_over_(any_camera, scout_width_px), front_end_(front_end), place_(place) {}
 
   // Makes it seek in this frame from now on.
   void Open(const image::GrayImage& frame);
@@ -38,7 +38,7 @@ class FeatureSearch {
   // view, and for a robot that was carried off they are elsewhere.
   void Refresh(const replay::Follower& follower, int agreeing, double dt_s, bool now);
   // Follows nothing.
-  void Forget() { eyes_.tracker().Follow({}); }
+  void Forget() { front_end_.tracker().Follow({}); }
 
   [[nodiscard]] HandOver& hand_over() { return hand_over_; }
   [[nodiscard]] const HandOver& hand_over() const { return hand_over_; }
@@ -50,7 +50,7 @@ class FeatureSearch {
   void Note(SearchKind kind, const route::Segment& segment, bool wide);
 
   HandOver hand_over_;
-  Eyes& eyes_;
+  FrontEnd& front_end_;
   PlaceKeeper& place_;
   const image::GrayImage* frame_ = nullptr;
   std::vector<Search> searches_;

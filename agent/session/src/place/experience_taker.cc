@@ -106,7 +106,7 @@ std::vector<Vector2d> InCommon(const std::vector<std::vector<Vector2d>>& residua
 
 }  // namespace
 
-void ExperienceTaker::Look(const Seen& seen, const replay::Follower& follower,
+void ExperienceTaker::Look(const FrameInput& seen, const replay::Follower& follower,
                            const std::vector<route::TrackedFeature>& tracked, bool sure) {
   tracker_.Track(*seen.frame, seen.driven ? seen.driven->heading_change_rad : 0.0);
   const std::optional<replay::CameraPlace> place = follower.camera_place();

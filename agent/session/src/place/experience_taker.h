@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "agent/session/src/eyes.h"
+#include "agent/session/src/front_end.h"
 #include "services/refresh/visit.h"
 #include "services/replay/camera_place.h"
 #include "services/replay/follower.h"
@@ -26,7 +26,7 @@ class ExperienceTaker {
 
   // Takes every frame, once `follower` has made a step of it. `tracked` are the segment's features
   // at their present places. `sure` says that the robot trusts its place.
-  void Look(const Seen& seen, const replay::Follower& follower,
+  void Look(const FrameInput& seen, const replay::Follower& follower,
             const std::vector<route::TrackedFeature>& tracked, bool sure);
 
   // Returns the result at the run's end. `follower` is the one of Look.

@@ -20,7 +20,7 @@
 namespace trailcast::agent {
 
 // This is what one frame shows.
-struct Seen {
+struct FrameInput {
   const image::GrayImage* frame = nullptr;  // as the intake makes it; valid until the next
   // This is the picture in which features are followed: the frame itself, or a reduced one.
   const image::GrayImage* followed_in = nullptr;
@@ -50,10 +50,10 @@ enum class FollowedFor {
 
 // This is the front end, a picture's first station: it checks the picture, takes it in, and tracks
 // its features.
-class Eyes {
+class FrontEnd {
  public:
   // With `by_commands` the commands to the base count as motion.
-  Eyes(const vision::IntakeOptions& intake, bool by_commands)
+  FrontEnd(const vision::IntakeOptions& intake, bool by_commands)
       : options_(intake), intake_(intake), by_commands_(by_commands) {}
 
   // Changes how pictures are taken in, from the next frame on. Tracked features are lost.
@@ -61,12 +61,12 @@ class Eyes {
 
   // Returns all but the features and what they tell, which Track adds. It has to be called for each
   // frame. Its errors are those of FrameCheck.
-  [[nodiscard]] Result<Seen> See(const Observation& observation);
-  void Track(Seen& seen, FollowedFor what);
+  [[nodiscard]] Result<FrameInput> See(const Observation& observation);
+  void Track(FrameInput& seen, FollowedFor what);
   // Goes on with strong features of a view of the last frame that are spread over it.
   void FollowSomeOf(const view::ViewTable& view);
 
-  // Takes in a frame without examining it. The result is valid as Seen::frame is.
+  // Takes in a frame without examining it. The result is valid as FrameInput::frame is.
   [[nodiscard]] const image::GrayImage* Pass(const Observation& observation);
 
   [[nodiscard]] vision::FeatureTracker& tracker() { return tracker_; }
@@ -82,7 +82,7 @@ class Eyes {
 
  private:
   [[nodiscard]] std::optional<motion::OdometryIncrement> Driven(const Observation& observation);
-  [[nodiscard]] bool IsFrozen(const Seen& seen);
+  [[nodiscard]] bool IsFrozen(const FrameInput& seen);
 
   FrameCheck check_;
   vision::IntakeOptions options_;

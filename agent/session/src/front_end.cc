@@ -1,4 +1,4 @@
-#include "agent/session/src/eyes.h"
+#include "agent/session/src/front_end.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,14 +47,14 @@ std::vector<route::TrackedFeature> SpreadOf(const view::ViewTable& view, int wid
 
 }  // namespace
 
-void Eyes::Turn(const vision::IntakeOptions& intake) {
+void FrontEnd::Turn(const vision::IntakeOptions& intake) {
   options_ = intake;
   intake_ = vision::PictureIntake(intake);
   tracker_ = vision::FeatureTracker();
   mount_ = {};
 }
 
-std::optional<motion::OdometryIncrement> Eyes::Driven(const Observation& observation) {
+std::optional<motion::OdometryIncrement> FrontEnd::Driven(const Observation& observation) {
   std::optional<motion::OdometryIncrement> step;
   if (observation.odometry && last_odometry_) {
     step = motion::IncrementBetween(*last_odometry_, *observation.odometry);
@@ -65,7 +65,7 @@ std::optional<motion::OdometryIncrement> Eyes::Driven(const Observation& observa
   return step;
 }
 
-bool Eyes::IsFrozen(const Seen& seen) {
+bool FrontEnd::IsFrozen(const FrameInput& seen) {
   const bool stands = seen.measured && std::abs(seen.measured->distance_m) < kStands_m &&
                       std::abs(seen.measured->heading_change_rad) < kStands_rad;
   const bool moves = seen.usual_flow > kMoves_flow;
@@ -73,9 +73,9 @@ bool Eyes::IsFrozen(const Seen& seen) {
   return frozen_s_ > kFrozen_s;
 }
 
-Result<Seen> Eyes::See(const Observation& observation) {
+Result<FrameInput> FrontEnd::See(const Observation& observation) {
   if (auto checked = check_.Check(observation); !checked) return tl::unexpected(checked.error());
-  Seen seen;
+  FrameInput seen;
   seen.frame = &intake_.Take(observation.image);
   seen.dt_s = last_stamp_ ? Seconds(observation.stamp - *last_stamp_) : 0.0;
   last_stamp_ = observation.stamp;
@@ -91,7 +91,7 @@ Result<Seen> Eyes::See(const Observation& observation) {
   return seen;
 }
 
-void Eyes::Track(Seen& seen, FollowedFor what) {
+void FrontEnd::Track(FrameInput& seen, FollowedFor what) {
   if (std::exchange(followed_for_, what) != what) tracker_ = vision::FeatureTracker();
   seen.followed_in = what == FollowedFor::kFlow ? &reduced_.Reduce(*seen.frame) : seen.frame;
   const image::GrayImage& picture = *seen.followed_in;
@@ -107,11 +107,11 @@ void Eyes::Track(Seen& seen, FollowedFor what) {
   seen.frozen = IsFrozen(seen);
 }
 
-void Eyes::FollowSomeOf(const view::ViewTable& view) {
+void FrontEnd::FollowSomeOf(const view::ViewTable& view) {
   tracker_.Follow(SpreadOf(view, followed_width_px_));
 }
 
-const image::GrayImage* Eyes::Pass(const Observation& observation) {
+const image::GrayImage* FrontEnd::Pass(const Observation& observation) {
   return check_.Check(observation) ? &intake_.Take(observation.image) : &observation.image;
 }
 
