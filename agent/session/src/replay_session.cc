@@ -13,7 +13,7 @@
 #include "agent/session/src/front_end.h"
 #include "agent/session/src/mount_watch.h"
 #include "agent/session/src/place/known_route.h"
-#include "agent/session/src/place/place_keeper.h"
+#include "agent/session/src/place/localiser.h"
 #include "agent/session/src/place/view_follower.h"
 #include "agent/session/src/place/view_taker.h"
 #include "agent/session/src/standing.h"
@@ -80,7 +80,7 @@ struct ReplaySession::State {
   FrontEnd front_end;
   UprightWatch upright;
   FramePace pace;
-  PlaceKeeper place;
+  Localiser place;
   vision::PictureSize scout;
   std::optional<FeatureFollower> by_features;  // always set
   ViewFollower by_views;

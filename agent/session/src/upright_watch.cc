@@ -17,7 +17,7 @@ constexpr double kWatched_s = 20.0;
 
 }  // namespace
 
-std::optional<double> UprightWatch::Look(const FrameInput& seen, const PlaceKeeper& place) {
+std::optional<double> UprightWatch::Look(const FrameInput& seen, const Localiser& place) {
   if (upright_ || watched_s_ > kWatched_s) return std::nullopt;
   watched_s_ += seen.looked_s;
   const bool due = frames_ < kEachFrame || frames_ % kOneInSoMany == 0;

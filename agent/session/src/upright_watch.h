@@ -4,7 +4,7 @@
 #include <string>
 
 #include "agent/session/src/front_end.h"
-#include "agent/session/src/place/place_keeper.h"
+#include "agent/session/src/place/localiser.h"
 
 namespace trailcast::agent {
 
@@ -15,7 +15,7 @@ class UprightWatch {
  public:
   // Returns for the next frame, at the believed place, by how many degrees clockwise pictures have
   // to be turned to be like the scout's, or nothing if by none, as far as is known.
-  [[nodiscard]] std::optional<double> Look(const FrameInput& seen, const PlaceKeeper& place);
+  [[nodiscard]] std::optional<double> Look(const FrameInput& seen, const Localiser& place);
   // Returns what was seen, in one line for people, after Look has told.
   [[nodiscard]] std::string Text() const;
   // Tells that it was recognised, as it is or once it was turned.

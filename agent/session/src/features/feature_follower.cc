@@ -40,7 +40,7 @@ ConfidenceOptions ConfidenceOf(ReplayMethod method) {
 
 FeatureFollower::FeatureFollower(const ReplayMethodOptions& options,
                                  const vision::PictureSize& scout, const KnownRoute& route,
-                                 FrontEnd& front_end, PlaceKeeper& place)
+                                 FrontEnd& front_end, Localiser& place)
     : options_(options),
       scout_width_px_(scout.width),
       route_(route),

@@ -15,7 +15,7 @@
 #include "agent/session/src/place/experience_taker.h"
 #include "agent/session/src/place/known_route.h"
 #include "agent/session/src/place/likeliest_place.h"
-#include "agent/session/src/place/place_keeper.h"
+#include "agent/session/src/place/localiser.h"
 #include "agent/session/src/place/place_trust.h"
 #include "agent/session/src/standing.h"
 #include "services/motion/motion.h"
@@ -33,7 +33,7 @@ class FeatureFollower {
  public:
   // `route`, `front_end` and `place` have to outlive it.
   FeatureFollower(const ReplayMethodOptions& options, const vision::PictureSize& scout,
-                  const KnownRoute& route, FrontEnd& front_end, PlaceKeeper& place);
+                  const KnownRoute& route, FrontEnd& front_end, Localiser& place);
 
   // Takes a segment that has just been added to the route.
   void Learn(const route::Segment& segment);
@@ -137,7 +137,7 @@ class FeatureFollower {
   int frame_width_px_ = 0;  // 0 before the first frame
   const KnownRoute& route_;
   FrontEnd& front_end_;
-  PlaceKeeper& place_;
+  Localiser& place_;
   FeatureSearch search_;
   Confidence confidence_;
   replay::Passing passing_;

@@ -6,7 +6,7 @@
 #include "agent/session/hand_over.h"
 #include "agent/session/sight.h"
 #include "agent/session/src/front_end.h"
-#include "agent/session/src/place/place_keeper.h"
+#include "agent/session/src/place/localiser.h"
 #include "services/replay/follower.h"
 #include "services/route/route.h"
 
@@ -17,7 +17,7 @@ namespace trailcast::agent {
 class FeatureSearch {
  public:
   // `front_end` and `place` have to outlive it.
-  FeatureSearch(bool any_camera, int scout_width_px, FrontEnd& front_end, PlaceKeeper& place)
+  FeatureSearch(bool any_camera, int scout_width_px, FrontEnd& front_end, Localiser& place)
       : hand_over_(any_camera, scout_width_px), front_end_(front_end), place_(place) {}
 
   // Makes it seek in this frame from now on.
@@ -51,7 +51,7 @@ class FeatureSearch {
 
   HandOver hand_over_;
   FrontEnd& front_end_;
-  PlaceKeeper& place_;
+  Localiser& place_;
   const image::GrayImage* frame_ = nullptr;
   std::vector<Search> searches_;
   double since_find_s_ = 0.0;

@@ -33,7 +33,7 @@ constexpr const char* kOnlyTheEnd =
     "put it further back";
 
 // Returns what was recognised, in the scout's pixels at the scout's magnification.
-std::vector<replay::SeenKeyView> SeenFrom(const PlaceKeeper& place, const Look& look) {
+std::vector<replay::SeenKeyView> SeenFrom(const Localiser& place, const Look& look) {
   const double half_px = 0.5 * place.recogniser().scout_width_px();
   std::vector<replay::SeenKeyView> seen;
   for (const Look::Recognised& each : look.views) {
@@ -49,7 +49,7 @@ std::vector<replay::SeenKeyView> SeenFrom(const PlaceKeeper& place, const Look& 
 
 }  // namespace
 
-ViewSteering SteerByViews(const PlaceKeeper& place, double speed_mps,
+ViewSteering SteerByViews(const Localiser& place, double speed_mps,
                           const motion::VelocityLimits& limits) {
   const double ahead = place.metric() ? kLookAhead_m : kLookAhead;
   const replay::ViewTurn turn =

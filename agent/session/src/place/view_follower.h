@@ -5,7 +5,7 @@
 #include "agent/session/replay_method.h"
 #include "agent/session/replay_step.h"
 #include "agent/session/src/place/known_route.h"
-#include "agent/session/src/place/place_keeper.h"
+#include "agent/session/src/place/localiser.h"
 #include "agent/session/src/place/place_trust.h"
 #include "services/motion/motion.h"
 #include "services/replay/view_turn.h"
@@ -18,7 +18,7 @@ struct ViewSteering {
   replay::ViewTurn turn;
   motion::VelocityCommand command;
 };
-[[nodiscard]] ViewSteering SteerByViews(const PlaceKeeper& place, double speed_mps,
+[[nodiscard]] ViewSteering SteerByViews(const Localiser& place, double speed_mps,
                                         const motion::VelocityLimits& limits);
 
 // This follows by the route's key views, for robots or routes without odometry: the belief tells
@@ -26,8 +26,7 @@ struct ViewSteering {
 class ViewFollower {
  public:
   // `route` and `place` have to outlive it.
-  ViewFollower(const ReplayMethodOptions& options, const KnownRoute& route,
-               const PlaceKeeper& place)
+  ViewFollower(const ReplayMethodOptions& options, const KnownRoute& route, const Localiser& place)
       : options_(options), route_(route), place_(place) {}
 
   // Makes a step by the look that the place has just taken.
@@ -46,7 +45,7 @@ class ViewFollower {
 
   ReplayMethodOptions options_;
   const KnownRoute& route_;
-  const PlaceKeeper& place_;
+  const Localiser& place_;
   PlaceTrust trust_;
 };
 

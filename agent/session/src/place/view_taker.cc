@@ -114,7 +114,7 @@ void ViewTaker::Note(const view::ViewTable& seen, Place& at, std::size_t variant
   at.seen = seen;
 }
 
-void ViewTaker::NoteWhatStays(const view::ViewTable& seen, const PlaceKeeper& place) {
+void ViewTaker::NoteWhatStays(const view::ViewTable& seen, const Localiser& place) {
   const double along = place.where().along;
   const double elsewhere = place.metric() ? kElsewhere_m : kElsewhere;
   if (last_along_ && std::abs(along - *last_along_) < elsewhere) return;
@@ -133,7 +133,7 @@ void ViewTaker::NoteWhatStays(const view::ViewTable& seen, const PlaceKeeper& pl
   last_along_ = along;
 }
 
-void ViewTaker::See(const PlaceKeeper& place) {
+void ViewTaker::See(const Localiser& place) {
   if (!place.where().held) return;
   const view::ViewTable& seen = place.look().seen;
   NoteWhatStays(seen, place);

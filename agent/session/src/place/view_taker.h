@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "agent/session/src/place/place_keeper.h"
+#include "agent/session/src/place/localiser.h"
 #include "services/refresh/visit.h"
 #include "services/route/route.h"
 #include "services/view/view_table.h"
@@ -22,10 +22,10 @@ class ViewTaker {
   ViewTaker(int scout_width_px, int scout_height_px)
       : width_px_(scout_width_px), height_px_(scout_height_px) {}
 
-  // Takes segments in order from the route's first on, as `PlaceKeeper::Learn` does.
+  // Takes segments in order from the route's first on, as `Localiser::Learn` does.
   void Learn(const route::Segment& segment);
   // Takes each look that `place` has taken while the robot was sure of it.
-  void See(const PlaceKeeper& place);
+  void See(const Localiser& place);
 
   // Adds the results to `visit`, whose segments rise, at the run's end.
   void Take(refresh::Visit& visit) const;
@@ -46,7 +46,7 @@ class ViewTaker {
 
   void Note(const view::ViewTable& seen, Place& at, std::size_t variant,
             const view::Comparison& comparison);
-  void NoteWhatStays(const view::ViewTable& seen, const PlaceKeeper& place);
+  void NoteWhatStays(const view::ViewTable& seen, const Localiser& place);
   [[nodiscard]] route::View AsTaught(const Place& at) const;
   [[nodiscard]] refresh::Sought Judge(const Place& at, std::size_t variant) const;
   [[nodiscard]] route::View OfferOf(const Place& at) const;

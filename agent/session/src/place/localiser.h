@@ -26,9 +26,9 @@ struct FrameMotion {
 
 // This keeps the belief in a robot's place on a route (route_belief.h) up to date with its motion
 // and with the route's key views that its camera shows. No clock.
-class PlaceKeeper {
+class Localiser {
  public:
-  explicit PlaceKeeper(int scout_width_px) : recogniser_(scout_width_px) {}
+  explicit Localiser(int scout_width_px) : recogniser_(scout_width_px) {}
 
   // Takes segments in order from the route's first on.
   void Learn(const route::Segment& segment);

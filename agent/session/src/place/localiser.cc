@@ -1,4 +1,4 @@
-#include "agent/session/src/place/place_keeper.h"
+#include "agent/session/src/place/localiser.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,21 +31,21 @@ constexpr int kEnoughToRecognise = 7;
 
 }  // namespace
 
-void PlaceKeeper::Learn(const route::Segment& segment) {
+void Localiser::Learn(const route::Segment& segment) {
   const std::vector<route::KeyView> views = view::KeyViewsOf(segment);
   place_.Learn(segment, views, recogniser_.Learn(views));
 }
 
-void PlaceKeeper::StartAt(double along, double sigma) { place_.belief().StartAt(along, sigma); }
+void Localiser::StartAt(double along, double sigma) { place_.belief().StartAt(along, sigma); }
 
-void PlaceKeeper::StartAnywhere() { place_.belief().StartAnywhere(); }
+void Localiser::StartAnywhere() { place_.belief().StartAnywhere(); }
 
-void PlaceKeeper::KnowMagnification(double magnification, int width_px) {
+void Localiser::KnowMagnification(double magnification, int width_px) {
   place_.belief().KnowMagnification(
       std::log(magnification * recogniser_.scout_width_px() / width_px));
 }
 
-void PlaceKeeper::Move(const FrameMotion& moved) {
+void Localiser::Move(const FrameMotion& moved) {
   looked_ = false;
   const auto& driven = moved.odometry ? moved.odometry : moved.told;
   if (driven && !moved.frozen) {
@@ -72,23 +72,23 @@ void PlaceKeeper::Move(const FrameMotion& moved) {
   }
 }
 
-double PlaceKeeper::PaceAt_m(double dt_s) const {
+double Localiser::PaceAt_m(double dt_s) const {
   return dt_s * (metric() ? place_.PaceAt(where().along) : route::kUsualSpeed_mps);
 }
 
-std::optional<double> PlaceKeeper::TrustInOdometry() const {
+std::optional<double> Localiser::TrustInOdometry() const {
   if (!by_odometry_) return std::nullopt;
   return belief().Trust(0);
 }
 
-void PlaceKeeper::SetTracked(const std::optional<RoutePoint>& point, int agreed) {
+void Localiser::SetTracked(const std::optional<RoutePoint>& point, int agreed) {
   tracked_.reset();
   if (point) tracked_ = {place_.AlongOf(*point), agreed};
 }
 
-bool PlaceKeeper::LookIsDue() const { return !where().held || new_since_look_ >= kLookIsDue; }
+bool Localiser::LookIsDue() const { return !where().held || new_since_look_ >= kLookIsDue; }
 
-void PlaceKeeper::LookAt(const image::GrayImage& picture, int width_px) {
+void Localiser::LookAt(const image::GrayImage& picture, int width_px) {
   belief::RouteBelief& belief = place_.belief();
   look_ = recogniser_.LookAt(
       picture, width_px,
@@ -98,7 +98,7 @@ void PlaceKeeper::LookAt(const image::GrayImage& picture, int width_px) {
   looked_ = true;
 }
 
-int PlaceKeeper::agreed_now() const {
+int Localiser::agreed_now() const {
   int most = 0;
   if (!looked_) return most;
   for (const Look::Recognised& each : look_.views) {
@@ -108,7 +108,7 @@ int PlaceKeeper::agreed_now() const {
   return most;
 }
 
-int PlaceKeeper::AgreedIn(const image::GrayImage& picture) const {
+int Localiser::AgreedIn(const image::GrayImage& picture) const {
   const Look look = recogniser_.Glance(picture, belief().Around(where().along, kNearViews));
   int most = 0;
   for (const Look::Recognised& each : look.views) {
@@ -117,8 +117,8 @@ int PlaceKeeper::AgreedIn(const image::GrayImage& picture) const {
   return most;
 }
 
-std::optional<vision::ViewFit> PlaceKeeper::Recognise(const image::GrayImage& frame,
-                                                      const RoutePoint& point) {
+std::optional<vision::ViewFit> Localiser::Recognise(const image::GrayImage& frame,
+                                                    const RoutePoint& point) {
   const Look look = recogniser_.LookAt(frame, frame.width,
                                        belief().Around(place_.AlongOf(point), kViewsToRecognise));
   const Look::Recognised* best = look.Best();
@@ -126,7 +126,7 @@ std::optional<vision::ViewFit> PlaceKeeper::Recognise(const image::GrayImage& fr
   return recogniser_.FitOf(look, best->comparison);
 }
 
-std::optional<double> PlaceKeeper::Magnification(int width_px) const {
+std::optional<double> Localiser::Magnification(int width_px) const {
   const auto known = belief().log_magnification();
   if (!known) return std::nullopt;
   return std::exp(*known) * width_px / recogniser_.scout_width_px();
