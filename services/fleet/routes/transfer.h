@@ -26,7 +26,7 @@ struct TransferWatch {
 class TransferProgress {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::seconds kGlance{2};
+  static constexpr std::chrono::seconds kMoment{2};
 
   TransferProgress(std::string doing, std::uint64_t total_bytes);
   void Show(std::uint64_t done_bytes);

@@ -27,7 +27,7 @@ TransferProgress::TransferProgress(std::string doing, std::uint64_t total_bytes)
 
 void TransferProgress::Show(std::uint64_t done_bytes) {
   const auto elapsed = Clock::now() - began_;
-  if (elapsed < kGlance) return;
+  if (elapsed < kMoment) return;
   lines_.Show({ProgressText(doing_, done_bytes, total_bytes_, elapsed)});
 }
 
