@@ -1,5 +1,5 @@
-// The picture in services/README.md is of the code: the rooms, and an arrow where one includes
-// another, but for those that follow from other arrows.
+// The picture in docs/reference/dependencies.md is of the code: the rooms, and an arrow where one
+// includes another, but for those that follow from other arrows.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -73,14 +73,14 @@ std::string Picture(const Arrows& arrows) {
   return out.str();
 }
 
-TEST(Architecture, ThePictureInTheReadmeIsOfTheCode) {
-  const std::filesystem::path readme =
-      std::filesystem::path(SourceDir()) / "services" / "README.md";
+TEST(Architecture, ThePictureInTheDocumentsIsOfTheCode) {
+  const std::filesystem::path page =
+      std::filesystem::path(SourceDir()) / "docs" / "reference" / "dependencies.md";
   std::ostringstream text;
-  text << std::ifstream(readme).rdbuf();
+  text << std::ifstream(page).rdbuf();
   const std::string picture = Picture(ArrowsOf(FindIncludes(ReadSources())));
   EXPECT_NE(text.str().find(picture), std::string::npos)
-      << readme.string() << " shows another picture than this, which is of the code:\n"
+      << page.string() << " shows another picture than this, which is of the code:\n"
       << picture;
 }
 
