@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What `./run test` took, as Markdown: its stages, and the thirty tests and test programs that took
 # longest, from what CTest noted in the build folders. `./run test --note-times` puts it into
-# tests/README.md.
+# tests/TIMES.md.
 #   tests/times.sh ROOT STAGES   (STAGES: a file with a line `NAME<tab>SECONDS` a stage)
 set -euo pipefail
 root=$1 stages=$2
