@@ -42,8 +42,8 @@ std::string Repeatable(std::vector<TrialRow> rows) {
 }
 
 // How well the default method follows, one trial each with a fixed seed. The bounds are two to
-// three times what was measured (tests/bench/README.md): a regression that users would notice
-// breaks them.
+// three times what was measured (docs/reference/figures/following.md): a regression that users
+// would notice breaks them.
 struct Quality {
   const char* scenario;
   const char* scout_camera;

@@ -7,16 +7,16 @@
 namespace trailcast::dds {
 namespace {
 
-// Measured in tests/bench/README.md, "Routes over bad networks". At 5 % packet loss, a route takes
-// a third to a half of the time with these settings: packets that fit an Ethernet frame (larger
-// ones are lost with any of their fragments, but cost a tenth less if nothing is lost), heartbeats
-// after 20 ms instead of 100 (they tell that the last packet was lost), and a NACK after 10 ms
-// instead of 100. Samples above 2 MB cannot be ours and are not reassembled.
-// Watermarks: a writer waits if more than 30 kB are unacknowledged, so that a full batch of
-// segments (48 kB) goes out when the one before has arrived. Links then take segments as fast as
-// they can and no faster. With 4 MB, the queue of a link of 1 Mbit/s overflows, and it does not
-// deliver 1 MB within a minute. The price is that a killed receiver of segments delays all others
-// until its lease ends. The watermark is not adaptive, because that falls with every loss.
+// docs/reference/figures/networks.md has the measurements ("Routes over bad networks"). At 5 %
+// packet loss, a route takes a third to a half of the time with these settings: packets that fit an
+// Ethernet frame (larger ones are lost with any of their fragments, but cost a tenth less if
+// nothing is lost), heartbeats after 20 ms instead of 100 (they tell that the last packet was
+// lost), and a NACK after 10 ms instead of 100. Samples above 2 MB cannot be ours and are not
+// reassembled. Watermarks: a writer waits if more than 30 kB are unacknowledged, so that a full
+// batch of segments (48 kB) goes out when the one before has arrived. Links then take segments as
+// fast as they can and no faster. With 4 MB, the queue of a link of 1 Mbit/s overflows, and it does
+// not deliver 1 MB within a minute. The price is that a killed receiver of segments delays all
+// others until its lease ends. The watermark is not adaptive, because that falls with every loss.
 constexpr const char* kDefaults =
     "<CycloneDDS><Domain><Internal>"
     "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"1s\">20ms</HeartbeatInterval>"
@@ -26,11 +26,11 @@ constexpr const char* kDefaults =
     "<Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHigh>30kB</WhcHigh>"
     "<WhcHighInit>30kB</WhcHighInit></Watermarks>"
     "</Internal></Domain></CycloneDDS>";
-// These are for a star and its centre (tests/bench/README.md, "Many agents at once"). While one
-// agent has not confirmed what a server wrote, its heartbeats go to all agents, and each answers
-// them; so both are rarer. They are still rarer for processes that send little, because a server
-// that a thousand of them join is some seconds behind and would be asked again and again. A fetch
-// that waits is reminded sooner (reminders.h).
+// These are for a star and its centre (docs/reference/figures/networks.md, "Many agents at once").
+// While one agent has not confirmed what a server wrote, its heartbeats go to all agents, and each
+// answers them; so both are rarer. They are still rarer for processes that send little, because a
+// server that a thousand of them join is some seconds behind and would be asked again and again. A
+// fetch that waits is reminded sooner (reminders.h).
 constexpr const char* kStar =
     "<CycloneDDS><Domain><Internal>"
     "<HeartbeatInterval min=\"5ms\" minsched=\"20ms\" max=\"8s\">100ms</HeartbeatInterval>"
