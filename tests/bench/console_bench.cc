@@ -1,5 +1,5 @@
-// What a console costs, and how smooth its pages are, beside a fleet that is only played: run by
-// console.sh.
+// This measures what a console costs, and how smooth its pages are, beside a fleet that is only
+// played. console.sh runs it.
 #include "tests/bench/console_bench.h"
 
 #include <fmt/format.h>

@@ -35,7 +35,7 @@ double Since_s(steady_clock::time_point then) {
   return std::chrono::duration<double>(steady_clock::now() - then).count();
 }
 
-// Of all of the process's threads.
+// Returns the time of all of the process's threads.
 double CpuSeconds(pid_t pid) {
   std::ifstream file(fmt::format("/proc/{}/stat", pid));
   const std::string line{std::istreambuf_iterator<char>(file), {}};
@@ -57,7 +57,7 @@ double ResidentMb(pid_t pid) {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-// What the process's host has received and sent so far.
+// This is what the process's host has received and sent so far.
 struct Radio {
   double in_bytes = 0.0;
   double in_packets = 0.0;
@@ -314,7 +314,7 @@ class Look {
     return {};
   }
 
-  // What a console says within a minute.
+  // Returns what a console says within a minute.
   Result<Json> Record() const {
     constexpr std::size_t kChanges = 300;
     std::string text;

@@ -1,5 +1,5 @@
-// What a frame costs a follower without and with odometry, beside the bare OpenCV calls that nobody
-// follows without, in turn in one run. See README.md.
+// This measures what a frame costs a follower without and with odometry, beside the bare OpenCV
+// calls that every follower needs, in turn in one run. See docs/reference/figures/speed.md.
 
 #include <benchmark/benchmark.h>
 

@@ -197,10 +197,10 @@ BENCHMARK_CAPTURE(WholeStep, WithoutOdometry, false)
     ->Arg(10'000)
     ->Unit(benchmark::kMillisecond);
 
-// What the control loop pays for a frame that somebody looks at.
+// This measures what the control loop pays for a frame that somebody looks at.
 void HandOverAGlance(benchmark::State& state) {
   agent::ReplaySession session = SessionOn(10.0, true);
-  // As the loop has it: the session looks at a frame that is still there.
+  // The session looks at a frame that is still there, as in the loop.
   const agent::Observation observation{FromSeconds(0.0), Frames()[0], motion::Pose2{}};
   const auto step = session.Observe(observation);
   for ([[maybe_unused]] auto _ : state) {

@@ -13,7 +13,7 @@ route::Segment Distractor(const std::vector<route::Segment>& elsewhere, std::uin
     return static_cast<std::size_t>(random.Integer(0, static_cast<int>(size) - 1));
   };
   route::Segment segment = elsewhere[pick(elsewhere.size())];
-  // As many as segments have that were taught: half of them 11 to 20, the others up to 56.
+  // It has as many features as taught segments: half of them have 11 to 20, the others up to 56.
   const auto wanted = static_cast<std::size_t>(random.Uniform() < 0.5 ? random.Integer(11, 20)
                                                                       : random.Integer(21, 56));
   route::View& features = segment.key_views.front().features;

@@ -10,9 +10,9 @@
 
 #include "services/network/network.h"
 
-// Ways over a network of 10,000 routes of 10 to 200 m and 50,000 joints, one in a hundred stretches
-// closed: from any place to any other. most_ms: the slowest, in
-// processor time.
+// This finds paths over a network of 10,000 routes of 10 to 200 m and 50,000 junctions, with one
+// section in a hundred closed, from any place to any other. most_ms is the slowest, in processor
+// time.
 
 namespace trailcast::network {
 namespace {

@@ -1,4 +1,4 @@
-// Who hears whom: agents of a star round a route server, and of a mesh.
+// These test who hears whom: agents of a star round a route server, and of a mesh.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -74,7 +74,7 @@ TEST_F(DdsVersionTest, BothTellOnce) {
   EXPECT_THAT(newer.told().front(), HasSubstr("update it"));
 }
 
-// Who calls changes what it says of itself.
+// A process that calls changes what it says of itself.
 TEST_F(DdsVersionTest, WhoCallsAgainAndAgainIsToldOfOnce) {
   const Domain domain = Domain::Create(DomainConfig(Options("x", 1), {}, "").value()).value();
   auto agent = Participant::Create(domain, ToText({"robot1", kProtocolVersion + 1})).value();

@@ -50,7 +50,7 @@ class ListeningContract : public testing::TestWithParam<test::NetworkKind> {
   bool Say(const std::vector<route::SegmentPiece>& pieces) {
     return scout_->Publish(SegmentBatch{AgentId("scout-1"), pieces}).has_value();
   }
-  // What else reached it before an announcement that the scout makes now.
+  // Takes all that reached it before an announcement that the scout makes now.
   bool TakeTheRest(Listener& listener) {
     const auto info = test::InfoOf(KeyNumber(99), {}, route::RouteState::kTeaching);
     if (!scout_->Publish(RouteAnnouncement{AgentId("scout-1"), info})) return false;

@@ -21,7 +21,7 @@ class RouteExchangeContract : public testing::TestWithParam<test::NetworkKind> {
   std::unique_ptr<RouteExchange> Open(const TopicUse& use) { return network_->Open(use); }
   std::unique_ptr<RouteExchange> Open() { return Open(EveryTopic()); }
 
-  // What `reader` gets when `writer`, known to it, publishes `message`.
+  // Returns what `reader` gets when `writer`, known to it, publishes `message`.
   static std::vector<Message> Carry(const Message& message, RouteExchange& writer,
                                     RouteExchange& reader, Topic topic) {
     EXPECT_TRUE(Connect(writer, topic, {&reader}));

@@ -18,7 +18,7 @@ using namespace trailcast;
 
 namespace {
 
-// As what stands behind an address's question mark: "name=hall&tag=wet".
+// Returns parameters as behind an address's question mark: "name=hall&tag=wet".
 console::Parameters ParametersIn(const std::string& text) {
   console::Parameters parameters;
   std::size_t at = 0;
@@ -33,7 +33,7 @@ console::Parameters ParametersIn(const std::string& text) {
   return parameters;
 }
 
-// As a server lists its network.
+// Returns lines as a server lists its network.
 std::vector<std::string> LinesIn(const std::string& text) {
   std::vector<std::string> lines;
   for (std::size_t at = 0; at < text.size();) {

@@ -1,4 +1,4 @@
-// What clients send to an HTTP server of ours, whatever it is, over a connection.
+// This fuzzes what clients send to this project's HTTP server, whatever it is, over a connection.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>

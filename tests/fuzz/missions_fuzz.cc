@@ -1,4 +1,4 @@
-// What operators send robots to do, and what a robot keeps of it in a file.
+// This fuzzes what operators send robots to do, and what a robot keeps of it in a file.
 #include <unistd.h>
 
 #include <filesystem>

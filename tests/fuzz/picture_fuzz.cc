@@ -1,4 +1,4 @@
-// What a JPEG says of itself, before it is decoded, and what lies behind its end.
+// This fuzzes what a JPEG says of itself before it is decoded, and what lies behind its end.
 #include <algorithm>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// What a route server sends as the fleet's list of revoked certificates.
+// This fuzzes what a route server sends as the fleet's list of revoked certificates.
 #include "services/security/revocation_list.h"
 
 #include "tests/fuzz/fuzz.h"
@@ -8,7 +8,7 @@ using namespace trailcast::security;
 
 namespace {
 
-// Whose lists the seeds are.
+// The seeds are lists of this authority.
 constexpr const char* kAuthority = R"(-----BEGIN CERTIFICATE-----
 MIIBTTCB9aADAgECAhBGo3DiwGrZJqg/YmGJN3P+MAoGCCqGSM49BAMCMB4xHDAa
 BgNVBAMME3RyYWlsY2FzdCBhdXRob3JpdHkwIBcNMjYxMTIzMTE1NDI0WhgPMjEy

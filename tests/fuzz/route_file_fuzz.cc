@@ -1,5 +1,5 @@
-// Route files: the input as it is, and with its size and checksum made right, as somebody would who
-// means to deceive. What is taken is within bounds and all there.
+// This fuzzes route files: the input as it is, and with its size and checksum made right, as an
+// attacker would. A file that is accepted is within bounds and complete.
 #include "services/archive/route_file.h"
 #include "services/archive/src/layout.h"
 #include "services/route/bounds.h"

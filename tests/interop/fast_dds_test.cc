@@ -67,7 +67,7 @@ class FastDds : public ProgramsTest {
     Process peer(With({kFastDdsPeer, common_.back()}, words), Path("peer.log"));
     return End(peer);
   }
-  // What our operator's tool lists, in the peer's words.
+  // Returns what the project's own tool lists, in the peer's words.
   std::vector<std::string> OurList() {
     const auto listed = Run("trailcast", {"routes", "--json"});
     EXPECT_EQ(listed.status, 0) << listed.output;

@@ -1,4 +1,5 @@
-// What people get wrong: each time one clear line, an exit status, and nothing spoilt.
+// These test what people get wrong: each time there is one clear line and an exit status, and
+// nothing is spoilt.
 #include <fstream>
 
 #include "services/image/files.h"

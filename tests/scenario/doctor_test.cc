@@ -1,5 +1,5 @@
-// What the doctor says of recorded drives: of one simulated robot, whose odometry is good in one
-// recording and lies in the others.
+// These test what the doctor says of recorded drives: of one simulated robot, whose odometry is
+// good in one recording and lies in the others.
 #include "services/lab/simulated/simulated_device.h"
 #include "services/lab/trial/recording/odometry_noise.h"
 #include "tests/scenario/programs.h"
@@ -84,7 +84,7 @@ TEST_F(DoctorTest, NamesWhatIsWrongWithAnOdometryAndHasNothingAgainstAGoodOne) {
   const auto mirrored = Doctor("mirrored");
   EXPECT_EQ(mirrored.status, 1) << mirrored.output;
   EXPECT_THAT(mirrored.output, HasSubstr("BAD   turns: odometry turns to the other side"));
-  // As far as the picture moves beyond doubt meanwhile.
+  // This is for as long as the picture moves beyond doubt meanwhile.
   EXPECT_THAT(Doctor("frozen").output,
               testing::ContainsRegex("warn  frozen: odometry stands while the picture moves, from "
                                      "[0-9.]+ s for (1\\.[0-9]|2\\.[0-2]) s"));

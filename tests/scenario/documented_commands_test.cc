@@ -74,8 +74,8 @@ std::vector<Shown> CommandsOf(const Document& document) {
 
 class DocumentedCommands : public ProgramsTest {
  protected:
-  // What a program explains of itself, or of a command of its own; nothing of one that is not
-  // there.
+  // This is what a program explains of itself, or of a command of its own. It is empty for a
+  // command that does not exist.
   struct Explained {
     std::string flags;     // with what each is for
     std::string commands;  // those of its own, a line each
@@ -126,7 +126,7 @@ class DocumentedCommands : public ProgramsTest {
     return flag == "--help";
   }
 
-  // What is wrong with it; empty if nothing is.
+  // Returns what is wrong with it, or an empty text if nothing is.
   std::string Wrong(const std::vector<std::string>& words) {
     std::vector<std::string> command{words.front()};
     Explained explained = Explain(command);

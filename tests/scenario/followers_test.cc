@@ -26,7 +26,7 @@ class FollowersTest : public RobotsTest {
     process.Signal(SIGKILL);
     EXPECT_EQ(End(process).status, 128 + SIGKILL);
   }
-  // What an observer hears of the fleet.
+  // This is what an observer hears of the fleet.
   class Observer {
    public:
     explicit Observer(const std::string& tag) {
@@ -96,7 +96,7 @@ TEST_P(FollowersTogether, TheSecondStopsBehindTheFirstThatHangsAndBothGoOnAfter)
   const auto second_robot = Robot("robot2", {"--seed", "2"});
   const auto first = Follow("robot1", "first.db", With(way, {"--name", "first"}), "first");
   const auto second = Follow("robot2", "second.db", With(way, {"--name", "second"}), "second");
-  // Whoever comes first: the other one waits for it.
+  // The other robot waits for the one that comes first.
   AgentId ahead;
   ASSERT_TRUE(observer.See([&](const AgentStatus& status) {
     ahead = status.agent;

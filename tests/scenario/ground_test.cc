@@ -19,7 +19,7 @@ class GroundTest : public RobotsTest {
                       {"--imu-topic", "imu", "--lockstep", "--end-when-still", "1"}));
     ASSERT_EQ(scout.status, 0) << scout.output << robot->output();
   }
-  // Of a robot that follows what is in the store.
+  // Returns the end of a robot that follows what is in the store.
   ProgramsTest::Ended FollowedFrom(const std::string& store, const Words& words) {
     const auto robot = Robot("robot1", {"--lockstep", "--seed", "7"});
     EXPECT_TRUE(robot->WaitForOutput("in lockstep")) << robot->output();

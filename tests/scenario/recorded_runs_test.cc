@@ -1,5 +1,6 @@
-// Runs that nobody here recorded: taught on one, replayed on the other, open loop, by vision alone.
-// What must hold is in ../shared/data/README.md; skipped, visibly, where that data is absent.
+// These teach on one run and replay another, open loop, by vision alone, with runs that nobody of
+// the project recorded. ../shared/data/README.md has what must hold. They are skipped, visibly,
+// without that data.
 
 #include "tests/scenario/recorded_runs.h"
 

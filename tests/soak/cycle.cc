@@ -129,7 +129,7 @@ void Cycle::ReadTaught(Clock::time_point now) {
 
 void Cycle::WatchAudit(Clock::time_point now) {
   const auto outgoing = audit_->Tick(now);
-  // What cannot be handed over is asked for again.
+  // A request that cannot be sent is repeated.
   (void)exchange::PublishAll(exchange_, outgoing);
   const bool late = now > deadline_;
   if (!audit_->Complete() && !late) return;

@@ -14,7 +14,7 @@ namespace {
 
 using exchange::Topic;
 
-// What a bystander hears of everything, and asks for as a follower does.
+// Returns a bystander's exchange, which hears everything, and asks for it as a follower does.
 std::unique_ptr<exchange::RouteExchange> Listen() {
   dds::DdsOptions options;
   options.network_interface = "air";

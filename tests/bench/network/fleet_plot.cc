@@ -1,4 +1,4 @@
-// What an agent costs against the size of the fleet: network.sh's `sizes` as a picture.
+// This draws what an agent costs against the size of the fleet: network.sh's `sizes` as a picture.
 #include <vector>
 
 #include "services/base/number_table.h"

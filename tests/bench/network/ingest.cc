@@ -103,7 +103,8 @@ struct Share {
 
 using PlayedScouts = std::map<route::RouteKey, std::unique_ptr<PlayedScout>>;
 
-// Dismisses those whose routes are receipted to the end; how many segments they taught.
+// Dismisses scouts whose routes are acknowledged to the end, and returns how many segments they
+// taught.
 std::uint64_t TakeDone(PlayedScouts& scouts) {
   std::uint64_t taught = 0;
   for (auto scout = scouts.begin(); scout != scouts.end();) {
@@ -173,7 +174,7 @@ void Play(const IngestOptions& options, std::uint32_t part, Share& share) {
     }
     for (const Clock::time_point first : successors) begin_route(first);
     share.taught += TakeDone(scouts);
-    // What cannot be sent is asked for.
+    // A piece that cannot be sent is asked for.
     (void)exchange::PublishAll(**opened, due);
   }
   share.unreceipted = backlog();

@@ -61,7 +61,7 @@ class LightAgent {
     return {};
   }
 
-  // Of its neighbours: how old what was told of each was, and when it was told.
+  // Returns the age of each report of its neighbours. The next returns how often they came.
   [[nodiscard]] const std::vector<double>& ages_s() const { return ages_s_; }
   [[nodiscard]] double told_every_s() const {
     return times_told_ < 2 ? 0.0 : (last_told_s_ - first_told_s_) / (times_told_ - 1);
@@ -117,7 +117,7 @@ class LightAgent {
                                    .query = {.name = options_.route, .page_size = 10}});
       ask_at_ = now + kAskAgain;
     }
-    // What cannot be handed over is asked for again.
+    // A request that cannot be sent is repeated.
     (void)exchange::PublishAll(exchange_, outgoing);
     exchange::AgentStatus status = presence_.status();
     status.mode = exchange::AgentMode::kWaiting;

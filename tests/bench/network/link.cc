@@ -31,7 +31,7 @@ Result<void> Checked(bool done, const char* what) {
   return Fail(ErrorCode::kUnavailable, "{}: {}", what, strerror(error));
 }
 
-// Of the network interface "wan", which goes with the process.
+// This is one end of the network interface "wan", which disappears with the process.
 class End {
  public:
   End() = default;
@@ -93,7 +93,7 @@ class Direction {
   }
 
  private:
-  // What a router's memory holds of a fast line.
+  // A router's memory holds this much of a fast line.
   static constexpr std::size_t kMostUnderWay = 10'000;
 
   int from_;

@@ -1,4 +1,4 @@
-// What network.sh measures with; see network_bench.h.
+// network.sh measures with this; see network_bench.h.
 #include "tests/bench/network/network_bench.h"
 
 #include <fmt/format.h>

@@ -13,7 +13,7 @@ namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
 using fast_dds::Made;
 
-// What writers and readers have in common. Samples may be of any size: as much memory as each
+// Writers and readers have this in common. Samples may be of any size, with as much memory as each
 // needs.
 template <typename EndpointQos>
 EndpointQos QosOf(EndpointQos qos, const TopicQos& row) {

@@ -21,7 +21,8 @@ std::int64_t NowUnixMs() {
   return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
 }
 
-// As a scout that has just taught it says it: nobody changed its labels yet.
+// Returns the route as a scout announces it that has just taught it, with labels that nobody has
+// changed.
 wire::CatalogRoute Relabelled(wire::CatalogRoute route, const std::string& name) {
   route.key().route(NewRouteId());
   route.key().teaching(1);
@@ -36,7 +37,7 @@ wire::CatalogRoute Relabelled(wire::CatalogRoute route, const std::string& name)
   return route;
 }
 
-// A scout towards servers: announces, streams, answers, until it is receipted.
+// This is a scout towards servers: it announces, streams and answers until all is acknowledged.
 class Scout {
  public:
   Scout(Bus& bus, wire::CatalogRoute route, std::vector<wire::SegmentPiece> pieces)

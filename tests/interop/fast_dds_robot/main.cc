@@ -1,5 +1,5 @@
-// A robot whose ROS 2 nodes run over Fast DDS, ROS 2's own default: a camera, wheels, a base. What
-// it sees is a film: so many pictures a metre of the way ahead.
+// This is a robot whose ROS 2 nodes run over Fast DDS, ROS 2's own default: a camera, wheels, a
+// base. It sees a film with so many pictures for each metre of the path ahead.
 #include <chrono>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fstream>

@@ -1,4 +1,4 @@
-// Who may use the console: users over TLS, and those who are none.
+// These test who may use the console: users over TLS, and not others.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ TEST_F(ConsoleDoorsTest, EachMayWhatTheirRoleSays) {
   EXPECT_EQ(Post("/api/robots/robot1/stop", theirs).status, 403);
   theirs.emplace("Origin", "https://evil.example");
   EXPECT_EQ(Post("/api/robots/robot1/stop", theirs).status, 403);
-  // What no page sends by itself, but for a stop, which is obeyed whatever it comes with.
+  // No page sends this by itself. A stop alone is obeyed whatever it comes with.
   const auto as_form = [&](const char* path) {
     return Client()->Post(path, anna, "reason=rain", "application/x-www-form-urlencoded")->status;
   };
@@ -72,7 +72,7 @@ TEST_F(ConsoleDoorsTest, EachMayWhatTheirRoleSays) {
               AllOf(HasSubstr("frame-ancestors 'none'"), HasSubstr("object-src 'none'")));
   EXPECT_THAT(page->get_header_value("Permissions-Policy"), HasSubstr("camera=()"));
 
-  // Who is removed is out, though the console runs on.
+  // A user who is removed is logged out, though the console runs on.
   ASSERT_EQ(Users({"remove", "anna"}).status, 0);
   const auto until = steady_clock::now() + test::kLongEnough;
   while (Get("/api/me", anna).status != 401) ASSERT_LT(steady_clock::now(), until);
@@ -221,7 +221,7 @@ TEST_F(ConsoleDoorsTest, APersonLogsInStopsARobotAndLogsOutInABrowser) {
   browser.Screenshot(Shot("phone-guest"));
   browser.Look(1280, 800);
   browser.Screenshot(Shot("desktop-guest"));
-  // Who is removed is asked to log in, without doing anything.
+  // A user who is removed is asked to log in, without doing anything.
   ASSERT_EQ(Users({"remove", "guest"}).status, 0);
   EXPECT_TRUE(browser.WaitForText("Log in to see the robots")) << browser.Text();
 }

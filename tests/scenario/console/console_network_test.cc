@@ -103,7 +103,7 @@ TEST_F(ConsoleNetworkTest, RoutesAreJoinedClosedAndARobotIsSentToAPlaceUponThem)
       << browser.Text();
   const json drawn = browser.Run("return document.querySelector('.on-way').getAttribute('d')");
   EXPECT_THAT(drawn.get<std::string>(), Not(IsEmpty()));
-  // What is told is of the places that stand there.
+  // The page tells of the places in the fields.
   ASSERT_TRUE(browser.Type(Field("To"), "5"));
   ASSERT_TRUE(WaitUntil([&] { return browser.Text().find("0.55 m to") == std::string::npos; }))
       << browser.Text();

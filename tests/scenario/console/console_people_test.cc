@@ -138,7 +138,7 @@ TEST_F(ConsolePeopleTest, AnOperatorPausesOneOfThreeRobotsAndWhoLooksSeesIt) {
   anna->Screenshot(Shot("one-paused"));
   guest->Screenshot(Shot("phone-one-paused"));
 
-  // Who only looks finds nothing to press that acts, and the console refuses what they send.
+  // A user who only looks finds nothing to press that acts, and the console refuses what they send.
   for (const std::string page : {"fleet", "cameras", "network", "routes", "history"}) {
     (void)guest->Run("window.location.hash = '" + page + "'");
     ASSERT_TRUE(WaitUntil([&] {

@@ -27,7 +27,7 @@ class ConsoleRoutesTest : public ConsoleFleetTest {
   }
   void Open(const std::string& page) { browser_->Open(Page() + "#" + page); }
   void Slide() { ASSERT_TRUE(browser_->Type("//input[@type='range']", kSlide)); }
-  // Of a picture that was chosen.
+  // Waits for the answer about a picture that was chosen.
   bool WaitForAnswer() {
     return WaitUntil([&] {
       const std::string text = browser_->Text();

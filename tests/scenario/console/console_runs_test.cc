@@ -1,4 +1,4 @@
-// A run of a robot on duty, opened again from its log, in Chromium.
+// These open a robot's run on a mission again from its log, in Chromium.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 

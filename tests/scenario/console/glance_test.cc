@@ -1,4 +1,5 @@
-// What robots' cameras see, over HTTP and in a browser: while somebody looks, and no longer.
+// These test what robots' cameras see, over HTTP and in a browser: while somebody looks, and no
+// longer.
 #include <chrono>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -136,7 +137,8 @@ TEST_F(GlanceTest, APersonSeesThePictureWhileItIsOpenInABrowser) {
   (void)browser.Run("performance.setResourceTimingBufferSize(100000)");
   EXPECT_EQ(asked(), 0) << "nobody has asked to see it";
   Send("follow hall speed 0.25");
-  // What the page then shows of its way pushes the picture, which is pulled only while it is seen.
+  // The page then shows so much of its path that the picture moves out of sight, and it is pulled
+  // only while it is seen.
   ASSERT_TRUE(browser.WaitForText("Driving")) << browser.Text() << agent_->output();
   ASSERT_TRUE(browser.Click("//button[contains(., 'Camera')]"));
   ASSERT_TRUE(browser.WaitForText("in their funnel lanes")) << browser.Text() << agent_->output();

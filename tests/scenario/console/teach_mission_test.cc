@@ -1,4 +1,4 @@
-// Robots on duty that teach: sent, driven by hand from afar, ended, followed by others.
+// These test robots that are sent to teach, driven from afar, ended, and followed by others.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -30,7 +30,7 @@ class TeachMissionTest : public ConsoleFleetTest {
     StartConsole();
     ASSERT_TRUE(WaitForState("available"));
   }
-  // Of the mission of this name.
+  // Returns the state of the mission of this name.
   std::string Became(const std::string& mission) {
     const json missions = Get("/api/missions?mission=" + mission);
     if (!missions.is_object() || missions["missions"].empty()) return "";
@@ -54,7 +54,7 @@ class TeachMissionTest : public ConsoleFleetTest {
                  {"driver", driver},
                  {"said_ms", std::chrono::duration_cast<milliseconds>(now).count()}});
   }
-  // As far east as that; false if it does not get there.
+  // Drives as far east as that. Returns false if the robot does not get there.
   bool DriveTo(double along_m) {
     return WaitUntil([&] {
       const auto before = steady_clock::now();

@@ -26,7 +26,7 @@ using ::testing::IsEmpty;
 
 const std::filesystem::path kPrograms = ProgramsDir();
 
-// As far as it can be read: a process may end meanwhile, and its file with it.
+// Returns as much as can be read: a process may end meanwhile, and its file with it.
 std::string Contents(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
@@ -146,7 +146,7 @@ TEST_F(DemoTest, WhenTheServerDiesItSaysSoAndEnds) {
   EXPECT_THAT(Left(scratch()), IsEmpty());
 }
 
-// What the console says of one of the robots.
+// Returns what the console says of one of the robots.
 std::string StateOf(const std::string& robot, httplib::Client& client) {
   const auto got = client.Get("/api/state");
   const auto state = got ? nlohmann::json::parse(got->body, nullptr, false) : nlohmann::json();

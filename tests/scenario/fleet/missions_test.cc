@@ -1,4 +1,4 @@
-// Robots on duty: what operators send them to do, and what becomes of it.
+// These test what operators send robots to do, and what becomes of it.
 #include <chrono>
 
 #include "tests/scenario/robots.h"
@@ -16,7 +16,7 @@ class MissionsTest : public RobotsTest {
     Teach();
     server_ = Server();
   }
-  // A robot at the route's beginning, and its agent on duty.
+  // Starts a robot at the route's beginning, and its agent, which waits to be sent.
   void GoOnDuty() {
     robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv")});
     agent_ = Serve("robot1");

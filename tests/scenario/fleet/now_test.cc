@@ -1,4 +1,4 @@
-// What operators tell robots at work: pause, resume, cancel, stop, release.
+// These test what operators tell robots at work: pause, resume, cancel, stop, release.
 #include <chrono>
 #include <filesystem>
 

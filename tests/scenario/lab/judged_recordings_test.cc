@@ -47,7 +47,7 @@ class JudgedRecordingsTest : public testing::Test {
     EXPECT_EQ(rows.size(), pairs.size());
     return rows;
   }
-  // Of the verdict's counts.
+  // Returns the shares of the verdict's counts.
   static RecordingShares Shares(const RecordingRow& row) { return SharesOf(row.verdict); }
 
   const fs::path data_ = fs::path(SourceDir()) / ".." / "shared" / "data";

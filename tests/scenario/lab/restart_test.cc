@@ -66,7 +66,7 @@ class Robot {
     for (int frame = 0; frame < 15; ++frame) (void)robot_->Step({});
     return last;
   }
-  // What the last session asked for.
+  // Returns what the last session asked for.
   [[nodiscard]] double commanded_m() const { return commanded_m_; }
   void Carry(const motion::Pose2& by) { sim::Judge(*robot_).Shove(by); }
   // Its true distance from a place on the path.
@@ -122,7 +122,7 @@ TEST_P(RestartByCamera, GoesOnFromWhereItStandsTimeAndAgain) {
   ExpectItArrives(robot, GoingOn(left));
 }
 
-// What was noted may be a second old, or the robot was put back not quite where it was.
+// The note may be a second old, or the robot may be put back not quite where it was.
 TEST(RestartTest, GoesOnFromAMetreFurtherAndFromBesideThePath) {
   Robot robot("webcam", 22);
   agent::LeftAt left = Killed(robot, Session(), 2.0);
@@ -136,7 +136,7 @@ TEST(RestartTest, GoesOnFromAMetreFurtherAndFromBesideThePath) {
   ExpectItArrives(robot, GoingOn(left));
 }
 
-// Who says where it stands knows it by eye, and nothing of its camera.
+// A person who says where the robot stands knows it by eye, and nothing of its camera.
 TEST(RestartTest, BeginsWhereItIsToldWithWhateverCamera) {
   for (const auto& [camera, off_m] : {std::pair("wide", -0.3), std::pair("firewire", 0.2)}) {
     SCOPED_TRACE(camera);

@@ -1,4 +1,4 @@
-// What was changed of routes and of how they are joined, asked of a server.
+// These ask a server what was changed of routes and of how they are joined.
 #include <csignal>
 #include <filesystem>
 #include <fstream>

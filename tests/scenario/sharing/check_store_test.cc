@@ -1,4 +1,4 @@
-// What an operator does with a store that was damaged.
+// These test what an operator does with a store that was damaged.
 
 #include <signal.h>
 #include <sqlite3.h>

@@ -1,4 +1,5 @@
-// Who finds whom on networks of different kinds, by flags and by the files of config/dds.
+// These test who finds whom on networks of different kinds, by flags and by the files of
+// config/dds.
 #include "tests/scenario/programs.h"
 #include "tests/support/network_lab.h"
 #include "tests/support/places.h"

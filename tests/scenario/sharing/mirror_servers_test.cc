@@ -54,7 +54,7 @@ class MirrorServers : public KillScoutsTest {
     for (std::size_t at = 0; (at = log.find(word, at)) != std::string::npos; ++at) ++count;
     return count;
   }
-  // What the sites hold, once their servers have ended.
+  // Ends both servers, and returns what the sites hold then.
   std::array<std::unique_ptr<store::RouteStore>, 2> EndBoth() {
     std::array<std::unique_ptr<store::RouteStore>, 2> stores;
     for (std::size_t which = 0; which < 2; ++which) {

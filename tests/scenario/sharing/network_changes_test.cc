@@ -45,7 +45,7 @@ class NetworkChanges : public ProgramsTest {
     StartServer();
     ASSERT_TRUE(server_->WaitForOutput("ready")) << server_->output();
   }
-  // What the server says over HTTP, on its own machine.
+  // Returns what the server says over HTTP, on its own machine.
   std::string Page(const std::string& path) {
     const std::string script =
         "exec 3<>/dev/tcp/127.0.0.1/9464; printf 'GET " + path + " HTTP/1.0\r\n\r\n' >&3; cat <&3";

@@ -246,7 +246,7 @@ TEST_F(FetchOverBadNetworks, ResumesWithWhatIsMissingWhereverItWasCut) {
   EXPECT_EQ(ended.status, 0) << ended.output;
   EXPECT_THAT(ended.output, HasSubstr(fmt::format("{} of them here", held)));
   ExpectAllHere();
-  // What was on its way at each cut is sent again, and nothing else.
+  // Only segments that were on their way at a cut are sent again.
   constexpr std::uint64_t kUnderWay = 160;
   EXPECT_LE(ServersCountOf("sent to followers"), kSegments + 3 * kUnderWay);
 }
@@ -283,7 +283,7 @@ TEST_F(FetchOverBadNetworks, SaysHowLongItTakesAndCountsOnlyWhatThisRunFetched) 
 class FetchWithLoss : public FetchOverBadNetworks, public testing::WithParamInterface<int> {};
 
 TEST_P(FetchWithLoss, Completes) {
-  // Of a thousand packets, as each end sends them.
+  // This is out of a thousand packets, as each end sends them.
   cyclonedds_uri_ = fmt::format(
       "<CycloneDDS><Domain><Internal><Test><XmitLossiness>{}</XmitLossiness></Test></Internal>"
       "</Domain></CycloneDDS>",

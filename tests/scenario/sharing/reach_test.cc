@@ -1,4 +1,4 @@
-// Who hears whom, as 'trailcast reach' asks it.
+// These test who hears whom, as 'trailcast reach' asks it.
 #include <nlohmann/json.hpp>
 
 #include "tests/scenario/programs.h"

@@ -57,7 +57,7 @@ class KillFollower {
       for (const exchange::Message& message : (*exchange)->Take(milliseconds(10))) {
         fetcher.Handle(message, Clock::now());
       }
-      // What cannot be sent is asked for again.
+      // A request that cannot be sent is repeated.
       (void)exchange::PublishAll(**exchange, fetcher.Tick(Clock::now()));
       (void)fetcher.TakeArrived();
       held_ = fetcher.Progress(Clock::now()).held;

@@ -1,5 +1,5 @@
-// Who is stopped in the middle (SIGSTOP: neither gone nor there) costs the others no memory: they
-// do not keep for it what it does not take.
+// A process that is stopped in the middle (SIGSTOP: neither gone nor there) costs the others no
+// memory: they do not keep for it what it does not take.
 #include <sys/stat.h>
 
 #include <cstdlib>

@@ -40,7 +40,7 @@ class StrangersTest : public SecuredFleetTest {
     EXPECT_EQ(CountOf(server.output(), "kept out"), 1U) << server.output();
     EXPECT_THAT(server.output(), HasSubstr(why));
   }
-  // What robot1 taught.
+  // Returns what robot1 taught.
   route::RouteInfo Taught() {
     const auto store = store::OpenSqliteStore(Path("scout.db"));
     return (*store)->QueryRoutes({})->routes.at(0);
@@ -125,7 +125,7 @@ TEST_F(StrangersTest, KeysThatExpireMeanwhileAreGoodForNothingMore) {
   const auto stranger = Join(keys, exchange::OperatorTopics());
   ASSERT_TRUE(stranger) << stranger.error().message;
   EXPECT_GT(Stranger::HeardBy(**stranger, kLeft, "brief"), 0U) << "was no member before";
-  // What was under way.
+  // This takes what was under way.
   (void)(*stranger)->Take(std::chrono::milliseconds(500));
   (void)(*stranger)->Take(std::chrono::milliseconds(500));
   EXPECT_EQ(Stranger::HeardBy(**stranger, std::chrono::seconds(3), "brief"), 0U);
@@ -139,8 +139,8 @@ TEST_F(StrangersTest, AMemberInTheWrongRoleIsStoppedByItsOwnDds) {
   EXPECT_THAT(stranger.error().message, HasSubstr("trailcast/routes"));
 }
 
-// Whose DDS does not look at its own permissions: a governance that demands none. Signed by the
-// authority itself here, which no thief could.
+// The member's DDS does not look at its own permissions, by a governance that demands none. The
+// authority itself signs it here, which no thief could.
 TEST_F(StrangersTest, AMemberInTheWrongRoleIsStoppedByTheOthersDds) {
   const auto server = SecuredServer();
   ASSERT_EQ(Teach(scout_keys_).status, 0);

@@ -407,7 +407,7 @@ class LanesModel {
 };
 
 TEST(LanesModelTest, NeverTwoAreInOneNarrowPlaceAndAllArrive) {
-  // What is stored is synced some hundred times a network, which a disk would take minutes for.
+  // A network syncs what it stores some hundred times, which would take a disk minutes.
   if (std::filesystem::is_directory("/dev/shm")) setenv("TMPDIR", "/dev/shm", 1);
   std::size_t robots = 0;
   int waits = 0;

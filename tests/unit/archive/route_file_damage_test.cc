@@ -27,7 +27,7 @@ std::string ErrorOf(const route::Bytes& bytes) {
 
 route::Bytes Whole() { return MadeFile::Of(test::TeachSamples(2)).Bytes(); }
 
-// What is said of the route with one thing changed; sizes and checksum are made right.
+// Returns what is said of the route with one thing changed. Sizes and checksum are made right.
 std::string ErrorAfter(const std::function<void(MadeFile&)>& change) {
   MadeFile made = MadeFile::Of(test::TeachSamples(2));
   change(made);

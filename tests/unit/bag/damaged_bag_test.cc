@@ -203,8 +203,8 @@ TEST_F(DamagedBag, ADb3FileThatWasCutGivesWhatIsWhole) {
   EXPECT_GT(before, kMessages / 2);
 }
 
-// Of a recorder that was killed all is in the log, which SQLite does not read without writing
-// beside it; a card may be read-only.
+// A recorder that was killed has all in the log, which SQLite does not read without writing beside
+// it; a card may be read-only.
 TEST_F(DamagedBag, WhatIsInTheLogIsReadAlsoWhereNothingCanBeWritten) {
   const std::filesystem::path card = folder_ / "card";
   std::filesystem::create_directory(card);

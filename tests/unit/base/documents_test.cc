@@ -29,7 +29,7 @@ Document Read(const std::string& text) {
   return test::ReadDocument("page.md", in);
 }
 
-// What follows '#' in a link to a heading, as the usual hosts make it.
+// Returns what follows '#' in a link to a heading, as the usual hosts make it.
 std::string AnchorOf(const std::string& heading) {
   std::string anchor;
   for (const char c : heading.substr(heading.find_first_not_of("# "))) {

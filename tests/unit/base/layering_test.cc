@@ -207,7 +207,7 @@ std::string FaultOf(const Include& include) {
   }
   if (header.starts_with("tests/")) return "belongs in tests/";
   if (include.quoted) {
-    // What idlc generates from idl/*.idl bears the bare name of its file.
+    // A header that idlc generates from idl/*.idl has the bare name of its file.
     if (header.find('/') == std::string::npos) {
       return include.room == "services/dds" ? "" : "is given by no path from the root";
     }

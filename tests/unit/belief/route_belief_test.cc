@@ -25,8 +25,8 @@ class Route {
     for (int i = 0; i < length; ++i) belief.Extend(1.0, Views({0.0}));
   }
 
-  // What a robot at `along` would find: many features at the nearest views, fewer further off,
-  // things looking larger from nearer.
+  // Shows what a robot at `along` would find: many features at the nearest views, fewer further
+  // off, and things looking larger from nearer.
   void See(double along, int peak = 20, double independent = 1.0,
            const std::optional<TrackedPlace>& tracked = std::nullopt) {
     std::vector<ComparedView> compared;

@@ -23,7 +23,7 @@ class PartialRoutesTest : public testing::Test {
     ASSERT_TRUE(
         store_.PutRoute(test::InfoOf(key, test::PiecesOf(key, 4), route::RouteState::kComplete)));
   }
-  // What is told, as "segments": of one route at a time.
+  // Returns what is told, as "segments", of one route at a time.
   std::vector<std::string> Told(PartialRoutes::Time now) {
     std::vector<std::string> told;
     for (const store::LackingRoute& route : partial_.TakeUntold(now)) {

@@ -1,4 +1,4 @@
-// Who is let in, and to what: users, roles, sessions and tokens over HTTP.
+// These test who is let in, and to what: users, roles, sessions and tokens over HTTP.
 #include "services/console/access.h"
 
 #include <gmock/gmock.h>
@@ -85,7 +85,7 @@ class AccessTest : public testing::Test {
   [[nodiscard]] std::string Origin() const {
     return "http://localhost:" + std::to_string(web_->port());
   }
-  // As a browser sends them that has logged in.
+  // Returns headers as a browser sends them that has logged in.
   httplib::Headers As(const std::string& user) {
     const std::string set = LogIn(user, kPassword).header("Set-Cookie");
     return {{"Cookie", "other=1; " + set.substr(0, set.find(';'))}, {"Origin", Origin()}};
@@ -272,8 +272,8 @@ TEST(Rights, ThePagesOwnFilesAloneAreForAnybody) {
   }
 }
 
-// What of a line's "{key: value, key: value}" has no colon: a text without quotes, cut at its
-// comma.
+// Returns the parts of a line's "{key: value, key: value}" that have no colon: texts without
+// quotes, cut at their commas.
 std::vector<std::string> CutIn(const std::string& line) {
   struct Map {
     bool is_map = false;  // else a list

@@ -45,7 +45,7 @@ class AtlasTest : public testing::Test {
         for (const exchange::Message& message : exchange->Take(milliseconds(5))) {
           (*keeper)->Handle(message, std::chrono::steady_clock::now());
         }
-        // What is lost is asked for.
+        // A message that is lost is asked for again.
         (void)exchange::PublishAll(*exchange, (*keeper)->Tick(std::chrono::steady_clock::now()));
       }
     });

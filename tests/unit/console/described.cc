@@ -188,7 +188,7 @@ class Checker {
 
   std::vector<std::string> TakeWrong() { return std::move(wrong_); }
 
-  // What "#/components/.." stands for.
+  // Returns what "#/components/.." stands for.
   const json& Resolve(const json& value) const {
     if (!value.is_object() || !value.contains("$ref")) return value;
     return Resolve(description_.at(json::json_pointer(value["$ref"].get<std::string>().substr(1))));
@@ -223,7 +223,7 @@ class Checker {
            (type == "integer" && value.is_number_integer()) ||
            (type == "number" && value.is_number());
   }
-  // Those of all that it is composed of; `any`: it may have others.
+  // Gathers the fields of all that it is composed of. `any` means that it may have others.
   void Gather(const json& described, json& fields, json& required, bool& any, json& others) const {
     const json& schema = Resolve(described);
     for (const json& part : schema.value("allOf", json::array())) {
@@ -278,7 +278,7 @@ std::optional<std::string> DescribedPath(const json& description, const std::str
   return best;
 }
 
-// What the description says of all requests alike.
+// Returns whether this is an answer that the description has for all requests alike.
 bool IsRefusedLikeAny(const httplib::Response& response) {
   static const std::vector<int> kLikeAny{401, 403, 404, 405, 411, 413, 415, 421, 500};
   return std::find(kLikeAny.begin(), kLikeAny.end(), response.status) != kLikeAny.end();

@@ -1,4 +1,4 @@
-// What Prometheus is told, and what is made of it.
+// These test what Prometheus is told, and what is made of it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -221,7 +221,7 @@ TEST_F(RunsTest, NothingOutsideOfTheFolderIsOpened) {
     EXPECT_GE(Get(std::string("/api/runs/") + wish).status, 400) << wish;
   }
 
-  // Who may write there puts a link in the place of what was found.
+  // A person who may write there puts a link in the place of what was found.
   const RunFolder folder(folder_ / "logs");
   const auto found = folder.Scan();
   ASSERT_TRUE(found);

@@ -20,7 +20,7 @@ using testing::Each;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-// Of places that look like nothing else.
+// Returns a segment of places that look like nothing else.
 route::Segment Arc(std::uint32_t index, double length_m, double turn_rad, int features = 30) {
   route::Segment segment = test::SegmentToSee(index + 1, index, features);
   segment.has_odometry = true;

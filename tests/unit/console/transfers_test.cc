@@ -65,7 +65,7 @@ class TransfersTest : public testing::Test {
   [[nodiscard]] Replied Upload(const std::string& bytes) const {
     return Read(Client().Post("/api/transfers/uploads", bytes, "application/octet-stream"));
   }
-  // As it is once it is over.
+  // Returns the transfer as it is once it is over.
   [[nodiscard]] json AtItsEnd(const json& begun) const {
     const std::string path = "/api/transfers/" + begun.value("transfer", "none");
     Replied now;

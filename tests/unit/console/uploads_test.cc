@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Uploads, UploadsTest,
 
 class ReceiveIntoTest : public testing::Test {
  protected:
-  // What is read is in pieces, and `whole` or not.
+  // Receives a body that is read in `pieces`, and is `whole` or not.
   Result<void> Receive(const fs::path& path, const std::vector<std::string>& pieces, bool whole) {
     return Receive(path, [&](const httplib::ContentReceiver& receive) {
       return std::all_of(

@@ -318,7 +318,7 @@ TEST_F(WebTest, WhatACameraSeesIsAPictureOrWhyThereIsNone) {
       }
     }
   });
-  // Who is answered waits for no longer than that takes.
+  // A caller that is answered waits for no longer than that takes.
   Desk patient{AgentId("patient"), bus_.Open(ConsoleTopics()),
                Desk::Options{.answer_within = test::kLongEnough}};
   const auto web = Web::Open(patient, atlas_, nullptr, "localhost", 0, {}).value();

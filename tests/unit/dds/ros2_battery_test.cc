@@ -1,4 +1,4 @@
-// What a battery says, from the robot's end of ROS 2's topic to the driver's.
+// These test what a battery says, from the robot's end of ROS 2's topic to the driver's.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -27,7 +27,7 @@ class Ros2BatteryTest : public testing::Test {
     options_.discovery_tag = test::UniqueTag();
     driver_ = Ros2Driver::Open(options_).value();
   }
-  // What the driver hears while somebody says it again and again.
+  // Returns what the driver hears while somebody says it repeatedly.
   template <typename Say>
   std::optional<Ros2Battery> HearWhile(const Say& say) {
     std::vector<Ros2Sensed> heard;
@@ -87,7 +87,7 @@ TEST_F(Ros2BatteryTest, ComesFromRobotsThatSayMore) {
   EXPECT_EQ(heard->capacity_ah, 5.0F);
 }
 
-// Of which ROS 2 itself matches the type by this name.
+// ROS 2 itself matches the type by this name.
 TEST(Ros2Battery, IsReadFromRos2sFields) {
   EXPECT_STREQ(BatteryType().m_typename, "sensor_msgs::msg::dds_::BatteryState_");
 }

@@ -154,7 +154,8 @@ TEST_P(Ros2BytesTest, InertiaAndBatteriesAreRead) {
 INSTANTIATE_TEST_SUITE_P(All, Ros2BytesTest,
                          testing::Combine(testing::Bool(), testing::Values(0, 1, 3, 64)));
 
-// What Foxglove's code writes by Humble's and by Jazzy's definitions (tests/golden/ros2).
+// These have what Foxglove's code writes by Humble's and by Jazzy's definitions
+// (tests/golden/ros2).
 class Ros2GoldenTest : public testing::TestWithParam<std::string> {
  protected:
   static std::map<std::string, std::string> Golden(const std::string& distribution) {

@@ -1,4 +1,4 @@
-// What others tell a base, heard by whoever does not drive it himself.
+// These test what others tell a base, as a program hears it that does not drive the base itself.
 #include <gtest/gtest.h>
 
 #include "services/dds/ros2_link.h"

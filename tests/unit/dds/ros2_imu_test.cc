@@ -1,4 +1,4 @@
-// What an IMU says, from the robot's end of ROS 2's topic to the driver's.
+// These test what an IMU says, from the robot's end of ROS 2's topic to the driver's.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +54,7 @@ TEST(Ros2ImuTest, ARobotWithoutAnImuSaysNone) {
   EXPECT_FALSE(robot->imu_is_heard());
 }
 
-// Of which ROS 2 itself matches the type by this name.
+// ROS 2 itself matches the type by this name.
 TEST(Ros2ImuTest, IsReadFromRos2sFields) {
   sensor_msgs_msg_dds__Imu_ wire{};
   wire.orientation.w = 1.0;

@@ -1,4 +1,4 @@
-// What a range sensor sees, from the robot's end of ROS 2's topic to the driver's.
+// These test what a range sensor sees, from the robot's end of ROS 2's topic to the driver's.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ class Ros2RangeTest : public testing::Test {
     options_.discovery_tag = test::UniqueTag();
     driver_ = Ros2Driver::Open(options_).value();
   }
-  // What the driver hears while somebody says it again and again.
+  // Returns what the driver hears while somebody says it repeatedly.
   template <typename Say>
   std::optional<Ros2Range> HearWhile(const Say& say) {
     std::vector<Ros2Sensed> heard;
@@ -81,7 +81,7 @@ TEST_F(Ros2RangeTest, ComesFromRobotsWithNewerReleases) {
   EXPECT_EQ(heard->range.range_m, 2.5F);
 }
 
-// Of which ROS 2 itself matches the type by this name.
+// ROS 2 itself matches the type by this name.
 TEST(Ros2Range, IsReadFromRos2sFields) {
   EXPECT_STREQ(RangeType().m_typename, "sensor_msgs::msg::dds_::Range_");
   sensor_msgs_msg_dds__Range_ wire{};

@@ -56,7 +56,7 @@ TEST(Ros2Scan, ARobotWithoutAScannerSaysNone) {
   EXPECT_FALSE(Ros2Robot::Open(options).value()->Publish(Ros2Scan{}));
 }
 
-// Of which ROS 2 itself matches the type by this name.
+// ROS 2 itself matches the type by this name.
 TEST(Ros2Scan, IsReadFromRos2sFields) {
   std::vector<float> ranges{1.0F, kNan};
   sensor_msgs_msg_dds__LaserScan_ wire{};

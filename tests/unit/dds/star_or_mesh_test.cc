@@ -93,7 +93,7 @@ TEST_F(StarOrMeshTest, AServerThatGoesLeavesTheStarAndIsCalled) {
   way_->Hear(FromServer());
   ASSERT_EQ(After(seconds(10), kServer), Step::kNone);
   way_->Hear(AgentGone{AgentId("server"), 7});
-  // What it wrote with is connected until its lease is over.
+  // The endpoint that it wrote with is connected until its lease is over.
   EXPECT_EQ(After(seconds(2), kServer), Step::kCall);
   EXPECT_FALSE(JoinsAnew(seconds(60), kNobody));
   EXPECT_TRUE(way_->star());

@@ -25,7 +25,7 @@ class StrangerWatchTest : public testing::Test {
   }
   void Warn(const std::string& line) { EXPECT_TRUE(watch_.HandleWarning(line, now_)) << line; }
 
-  // As Cyclone DDS 0.10.2 words it.
+  // These are the words of Cyclone DDS 0.10.2.
   const std::string expired_ =
       "1795362525.549122 [0]        fsm: Begin handshake reply failed: Certificate not valid: "
       "error: "

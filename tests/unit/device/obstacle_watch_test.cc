@@ -233,7 +233,7 @@ TEST_F(ObstacleWatchTest, EachOfItsSensorsCounts) {
   EXPECT_TRUE(watch.waits()) << "by the first of its ranges";
 }
 
-// Of the quarter turn ahead only.
+// Returns a scan of the quarter turn ahead only.
 motion::Scan LookAhead() {
   motion::Scan scan{-0.785, 0.01, 0.1, 10.0, {}};
   scan.ranges_m.assign(158, std::numeric_limits<float>::infinity());

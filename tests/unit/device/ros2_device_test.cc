@@ -1,4 +1,5 @@
-// What a ROS 2 robot's device gives of what the robot senses, by which stamps; and lockstep.
+// These test what a ROS 2 robot's device gives of what the robot senses, by which stamps, and
+// lockstep.
 #include "agent/device/ros2_device.h"
 
 #include "tests/unit/device/ros2_device_fixture.h"
@@ -206,7 +207,7 @@ TEST_F(Ros2DeviceTest, InLockstepAnswersEachFrameOnceMoreWhenItIsSaidAgain) {
   EXPECT_EQ(robot_.latest().stamp, stamp_);
 }
 
-// As a follower's robot does while its route is still to come.
+// A follower's robot does this while its route is still to come.
 TEST_F(Ros2DeviceTest, InLockstepAFrameSaidAgainBeforeItIsTakenKeepsItsTime) {
   run_.lockstep = true;
   Open();

@@ -20,7 +20,7 @@ class StampClockTest : public testing::Test {
     stamp_ += kStampFrame;
     return clock_.Follow(stamp_, now_ + milliseconds(20)).value();
   }
-  // Of ten samples, each so much later than the one before.
+  // Expects ten samples, each so much later than the one before.
   void ExpectGoesOn(SensorTime from) {
     SensorTime before = from;
     for (int i = 0; i < 10; ++i) {

@@ -43,14 +43,14 @@ double GreyAt(const GrayImage& picture, double x, double y) {
                  right * picture.at(column + 1, row + 1));
 }
 
-// What the camera sees.
+// This is what the camera sees.
 struct Sight {
   double scale = 1.0;
   double right_px = 0.0;
   double gain = 1.0;
   double noise_grey = 3.0;
   double painted_px = 1e3;  // from the picture's middle; the wall is blank beyond
-  // Of somebody who stands before it, so wide.
+  // A person who stands before it is this wide.
   double person_left_px = 0.0;
   double person_px = 0.0;
 };

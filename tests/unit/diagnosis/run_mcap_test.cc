@@ -61,7 +61,7 @@ class Viewer {
     EXPECT_TRUE(bag) << bag.error().message;
     bag_ = std::move(*bag);
   }
-  // As text.
+  // Reads messages as text.
   std::vector<std::string> Read(const std::string& name) {
     std::vector<std::string> texts;
     for (const bag::Topic& topic : bag_->topics()) {

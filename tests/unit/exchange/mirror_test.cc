@@ -97,11 +97,12 @@ class Site {
   Time status_due_{};
   std::size_t sent_ = 0;
   std::size_t most_sent_ = 0;
-  // Of which its scouts have a receipt: how many segments from the first on.
+  // Its scouts have acknowledgements of so many segments from the first on.
   std::map<RouteKey, std::uint32_t> receipted_;
 
  private:
-  // As far as it was announced: of more no other server can know that it is there.
+  // This counts as far as the route was announced, because no other server can know that there is
+  // more.
   void Note(const Receipt& receipt) {
     const auto info = store_.FindRoute(receipt.key).value();
     if (!info) return;
@@ -155,7 +156,7 @@ class MirrorTest : public testing::Test {
     site.exchange_->set_cut_off(cut_);
   }
 
-  // What a scout of this name teaches; nobody has it yet.
+  // Teaches as a scout of this name; nobody has it yet.
   Taught& Teach(unsigned route, std::uint64_t teaching, std::uint32_t revision,
                 std::uint32_t segments) {
     const RouteKey key = KeyNumber(route, teaching);
@@ -370,7 +371,7 @@ TEST_F(MirrorTest, ALaterActivationCountsThoughTheLineIsCutInTheMiddleOfIt) {
   Cut(true);
   Edit(a_, {.action = EditAction::kActivate, .route = "route-1", .revision = 2});
   StepFor(100ms);
-  // Of the two revisions that it changed, the news of one arrives.
+  // It changed two revisions, and the news of one arrives.
   const RouteInfo activated = *a_.store_.FindRoute(KeyNumber(1, 22)).value();
   ASSERT_EQ(activated.standing, Standing::kActive);
   b_.Handle(RouteAnnouncement{.holder = a_.name_, .info = activated}, now_);

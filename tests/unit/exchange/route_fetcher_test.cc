@@ -28,7 +28,7 @@ class RouteFetcherTest : public testing::Test {
   RouteFetcher NewListener() {
     return {AgentId("follower-1"), key_, {}, test::ToyIntegrity(), now_};
   }
-  // What it asks for, a digest alone with a '?': "0?", "0 1 2".
+  // Returns what it asks for, a digest alone with a '?': "0?", "0 1 2".
   std::string SaidAfter(RouteFetcher& fetcher, milliseconds passed) {
     now_ += passed;
     std::string said;
@@ -53,7 +53,7 @@ class RouteFetcherTest : public testing::Test {
   void Deliver(RouteFetcher& fetcher, const route::SegmentPiece& piece) {
     fetcher.Handle(SegmentBatch{AgentId("server-1"), {piece}}, now_);
   }
-  // As a follower does whose keys say that it is one.
+  // Lends as a follower does whose keys say that it is one.
   void Lend(RouteFetcher& fetcher, const std::vector<route::SegmentPiece>& pieces) {
     fetcher.Handle(SegmentBatch{.sender = AgentId("follower-2"),
                                 .pieces = pieces,

@@ -30,7 +30,8 @@ class RouteKeeperTest : public testing::Test {
   route::RouteInfo Info(std::uint32_t count, RouteState state) {
     return test::InfoOf(key_, std::span(pieces_).first(count), state);
   }
-  // As the server has it once it is complete: a route's first revision is activated.
+  // Returns the route as the server has it once it is complete: a route's first revision is
+  // activated.
   route::RouteInfo Active(std::uint32_t count) {
     route::RouteInfo info = Info(count, RouteState::kComplete);
     info.standing = route::Standing::kActive;
@@ -624,7 +625,7 @@ TEST_F(RouteKeeperTest, ADigestAloneIsEnoughOfWhatAnotherRevisionHas) {
       now_);
   Tick();
   EXPECT_EQ(store_.ReadSegment(again, SegmentIndex(0)).value(), known);
-  // Of the other one it has the name alone: it asks for it at once.
+  // It has only the name of the other one, and asks for it at once.
   EXPECT_TRUE(Only<SegmentRequest>(TickAfter(milliseconds(200))).size() == 1U);
   route::SegmentPiece name_alone = fresh;
   name_alone.bytes.clear();

@@ -171,7 +171,8 @@ class TwoServersTest : public SharedStoreTest {
       (void)PublishAll(*ends_[which], keepers_[which]->Tick(now_));
     }
   }
-  // Of what it asks for, the segments that the follower is sent within a while, sorted.
+  // Returns the segments that the follower is sent within a while, out of those that it asks for,
+  // sorted.
   std::vector<std::uint32_t> SentTo(const std::string& follower,
                                     const std::vector<SegmentIndex>& ask, milliseconds within) {
     EXPECT_TRUE(follower_->Publish(SegmentRequest{AgentId(follower), key_, ask}));

@@ -80,7 +80,7 @@ TEST_F(MissionClientTest, WhereTheRobotIsNotThereItIsKept) {
 }
 
 TEST_F(MissionClientTest, WatchesItToItsEnd) {
-  // What the server says late is no news after the robot's own word.
+  // A late report of the server is no news after the robot's own.
   Answering(exchange::ServerTopics(),
             {Of(0, State::kSent), Of(2, State::kUnderWay), Of(1, State::kAccepted),
              Of(0, State::kSent), Of(3, State::kArrived)});

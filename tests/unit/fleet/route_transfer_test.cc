@@ -43,7 +43,7 @@ class RouteTransferTest : public testing::Test {
   void Serve() { server_ = test::KeepRoutes(bus_, *store_); }
   void StopServer() { server_ = {}; }
 
-  // What the server's store holds from before.
+  // Puts into the server's store what it holds from before.
   void Hold(const TaughtRoute& taught, std::size_t segments) {
     ASSERT_TRUE(store_->AppendSegments({taught.pieces.data(), segments}));
   }

@@ -14,7 +14,7 @@ httplib::Request Asked(const std::string& method, const std::string& path,
   request.headers = headers;
   return request;
 }
-// Of one that is let in: 0.
+// Returns 0 for a request that is let in.
 int StatusOf(const httplib::Request& request, const std::set<std::string>& names = {}) {
   const auto refusal = Judge(request, {.port = 8080, .names = names});
   return refusal ? refusal->status : 0;

@@ -308,7 +308,7 @@ TEST_F(AnyBodyTest, ABodyWithoutEndTakesNoMemory) {
             16U << 20U);
 }
 
-// Who connects and says nothing has its thread for a second where others wait.
+// A client that connects and says nothing has its thread for a second where others wait.
 TEST_F(HttpServerTest, ManyWhoSayNothingAreDoneWith) {
   std::vector<std::unique_ptr<RawConnection>> silent;
   for (int i = 0; i < 6; ++i) silent.push_back(std::make_unique<RawConnection>(server_.port()));

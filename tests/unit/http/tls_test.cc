@@ -124,7 +124,7 @@ TEST_F(TlsTest, WhoGreetsSlowlyOrNeverIsDoneWith) {
   EXPECT_EQ(Hello(), 200);
 }
 
-// As over plain HTTP: a body without length, or an endless request, costs next to nothing.
+// A body without length, or an endless request, costs next to nothing, as over plain HTTP.
 TEST_F(TlsTest, RequestsWithoutEndTakeNoMemory) {
   ASSERT_EQ(Hello(), 200);
   [[maybe_unused]] const std::size_t before = test::ResidentBytes();
@@ -148,7 +148,7 @@ TEST_F(TlsTest, RequestsWithoutEndTakeNoMemory) {
   (void)endless->Get("/" + std::string(16U << 20U, 'x'));
   EXPECT_EQ(Hello(), 200);
 #if !defined(TRAILCAST_ASAN)  // it keeps what was freed
-  // What this process's own clients hold counts, too.
+  // The memory of this process's own clients counts, too.
   EXPECT_LT(test::ResidentBytes(), before + (64U << 20U));
 #endif
 }

@@ -28,7 +28,7 @@ GrayImage Gradient(int width, int height) {
   return image;
 }
 
-// What is left of an encoded picture when only a share of its bytes was written.
+// Writes what is left of an encoded picture when only a share of its bytes was written.
 void WriteTruncated(const std::string& extension, double share, const std::filesystem::path& file) {
   GrayImage image = Gradient(64, 48);
   const cv::Mat view(image.height, image.width, CV_8UC1, image.pixels.data());

@@ -60,7 +60,7 @@ TEST(GrayFromRaw, OfASensorWithFewerBitsThoseAreTaken) {
                 ElementsAre(255, 128))
         << bits;
     EXPECT_EQ(run.TakeNews().size(), bits == 16 ? 0U : 1U) << bits;
-    // What is darker is no brighter afterwards.
+    // A darker picture is no brighter afterwards.
     const Bytes dark = Two(3U << (bits - 8), 0);
     EXPECT_THAT(GrayFromRaw(Picture("16UC1", 2, 1, 4, dark), run).value().pixels, ElementsAre(3, 0))
         << bits;

@@ -127,7 +127,7 @@ TEST(CompareAlongTest, AnotherTeachingIsFoundToDifferWhereThePlaceHasChanged) {
   ASSERT_THAT(found.parts, SizeIs(kSegments));
   const auto differing = Differing(found.parts);
   ASSERT_THAT(differing, SizeIs(1));
-  // What is seen two to six metres ahead.
+  // These differ by what is seen two to six metres ahead.
   EXPECT_NEAR(differing[0].begin, 9.0, 2.0);
   EXPECT_NEAR(differing[0].end, 16.0, 2.0);
   EXPECT_LT(differing[0].share(), 0.4);

@@ -100,7 +100,7 @@ route::View See(const std::vector<Landmark>& building, const Pose& pose, const S
   return view;
 }
 
-// What was tracked from one place to the next.
+// Returns what was tracked from one place to the next.
 std::vector<route::Feature> Track(const std::vector<Landmark>& building, const Pose& from,
                                   const Pose& to, const Scout& scout) {
   std::vector<route::Feature> features;

@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Of robot1, at a time that passes when the test says so.
+// These are about robot1, at a time that passes when the test says so.
 class GlanceDeskTest : public testing::Test {
  protected:
   void Ask(const std::string& client, std::uint64_t request, const std::string& robot = "robot1") {
@@ -18,7 +18,7 @@ class GlanceDeskTest : public testing::Test {
             .agent = AgentId(robot), .client = AgentId(client), .request = request},
         now_);
   }
-  // Who gets a picture now that is made at once; empty: nobody.
+  // Returns who gets a picture that is made now, or an empty text for nobody.
   std::string Served() {
     if (!desk_.Asks(now_)) return "";
     const auto given = desk_.Give({.jpeg = {1, 2, 3}}, now_);
@@ -70,7 +70,7 @@ TEST_F(GlanceDeskTest, MoreThanEightThatWaitAreNotHeard) {
   std::string waiting = "abcdefgh";
   std::string served;
   while (served.size() < 8) {
-    // Who waits asks again and again, and keeps its place; the ninth is one too many.
+    // A client that waits asks repeatedly, and keeps its place; the ninth is one too many.
     for (const char client : waiting) Ask(std::string(1, client), 1);
     if (served.empty()) Ask("i", 1);
     const std::string client = Served();

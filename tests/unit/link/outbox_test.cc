@@ -49,7 +49,7 @@ route::Segment SegmentNumber(std::uint32_t index) {
 class OutboxTest : public testing::Test {
  protected:
   OutboxTest() { Restart(); }
-  // As after a crash: nothing but the file is left.
+  // Restarts as after a crash, with nothing but the file left.
   void Restart() {
     outbox_.reset();
     store_.reset();

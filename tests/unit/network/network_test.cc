@@ -119,7 +119,7 @@ TEST_F(NetworkTest, ARobotThatIsOnAClosedPartDrivesOutOfItAndIntoNoOther) {
   EXPECT_THAT(way({"h", 6.0}, {"y", 1.0}).error().message, HasSubstr("hall 15..16"));
 }
 
-// Who drives backwards looks where it looked before: it goes on ahead from anywhere.
+// A robot that drives backwards looks where it looked before, so it goes on ahead from anywhere.
 TEST_F(NetworkTest, WhereItMayARobotDrivesBackwards) {
   EXPECT_THAT(Why({"o", 8.0}, {"o", 3.0}), HasSubstr("no way leads"));
   conditions_ = {{.route = "o", .from_m = 2.0, .to_m = 9.0, .backed = true}};

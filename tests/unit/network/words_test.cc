@@ -16,7 +16,7 @@ std::string Why(const std::string& words) {
   return edit ? "" : edit.error().message;
 }
 
-// As a server lists what an edit has brought about.
+// Returns what an edit has brought about as a server lists it.
 std::string Listed(const std::string& words) {
   const auto edit = ParseEdit(words);
   if (!edit) return edit.error().message;

@@ -26,7 +26,7 @@ double TurnRateAt(double t_s) {
 }
 double SpeedAt(double t_s) { return t_s < 2.0 || t_s > 28.0 ? 0.0 : kSpeed_mps; }
 
-// What odometry tells instead of that motion at that time, a second.
+// This is what odometry tells instead of that motion at that time, for each second.
 using Lie = std::function<motion::VelocityCommand(double t_s)>;
 motion::VelocityCommand Truth(double t_s) { return {SpeedAt(t_s), TurnRateAt(t_s)}; }
 

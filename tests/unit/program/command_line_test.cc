@@ -67,7 +67,7 @@ class RefusedTest : public testing::Test {
     CLI::App* command = program_.app.add_subcommand("drive");
     command->add_option("--speed", speed_)->check(CLI::Range(0.1, 3.0));
   }
-  // What is said of a command line, with --config if `config` has anything.
+  // Returns what is said of a command line, with --config if `config` has anything.
   std::string Told(std::vector<std::string> words, const std::string& config = "") {
     const test::TempDir folder;
     if (!config.empty()) {

@@ -21,7 +21,7 @@ TEST(ProgressBar, FillsFromTheLeftAndStaysWithinItsWidth) {
   EXPECT_EQ(ProgressBar(std::nan(""), 4), "[    ]");
 }
 
-// What LiveLines writes to a file, which is no terminal.
+// LiveLines writes this to a file, which is no terminal.
 TEST(LiveLines, OffATerminalALineIsNotRepeatedBeforeItsTimeButForTheLast) {
   const test::TempDir folder;
   const std::filesystem::path file = folder / "out.txt";

@@ -310,7 +310,7 @@ TEST_F(MissionStoreTest, KeepsWhichQueuesAreHeldAndWhyOverARestart) {
   EXPECT_THAT(*holds, ElementsAre(Hold{AgentId("robot1"), "", 2000}));
 }
 
-// As an earlier program has left it.
+// The file is as an earlier program has left it.
 TEST_F(MissionStoreTest, AFileWithoutHeldQueuesIsGivenThem) {
   Add(For("robot1", "m1"));
   store_.reset();

@@ -1,4 +1,5 @@
-// What a loss of power, or a disk that fails for a moment, leaves of a server's own files.
+// These test what a loss of power, or a disk that fails for a moment, leaves of a server's own
+// files.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -32,7 +32,7 @@ Feature NewFeature(int number) {
   return feature;
 }
 
-// Of `route`: all its features are found, and these are offered in each segment.
+// Returns a visit of `route` that finds all its features, and offers these in each segment.
 Visit VisitOf(const std::vector<Segment>& route, int offered = 0) {
   Visit visit;
   for (const Segment& segment : route) {
@@ -208,7 +208,8 @@ TEST(Refresh, WhatNoScoutCouldHaveTaughtIsNotTaken) {
   EXPECT_EQ(refreshed->segments[0].features.back(), NewFeature(3));
 }
 
-// Of a route of one segment: all key views are recognised, and its first and third looked so.
+// Returns a visit of a route of one segment that recognises all key views, and offers views in
+// place of its first and third.
 Visit VisitByViews(const std::vector<Segment>& route) {
   Visit visit;
   SegmentVisit& each = visit.segments.emplace_back();

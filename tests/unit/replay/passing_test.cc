@@ -31,7 +31,8 @@ class PassingTest : public testing::Test {
     }
     return path;
   }
-  // What stands between two sides of the path, so far along it, as seen by a robot on the path.
+  // Returns what stands between two sides of the path, so far along it, as seen by a robot on the
+  // path.
   static std::vector<Vector2d> Cart(double along_m, double right_m, double left_m) {
     std::vector<Vector2d> points;
     for (double y_m = right_m; y_m <= left_m + 1e-9; y_m += 0.05) points.emplace_back(along_m, y_m);

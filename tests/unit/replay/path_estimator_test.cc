@@ -25,7 +25,7 @@ PathEstimator AMetreAlong(const test::TaughtRun& run, double magnification = 1.0
   return estimator;
 }
 
-// What the estimator makes of one look from a known place beside the path.
+// Returns what the estimator makes of one look from a known place beside the path.
 PathOffset LookFrom(const motion::Pose2& pose, double magnification = 1.0, double roll_rad = 0.0) {
   const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   PathEstimator estimator = AMetreAlong(run, magnification);
@@ -222,7 +222,7 @@ TEST(PathEstimator, BearsRollAndAnotherMagnification) {
   }
 }
 
-// What is seen there on the path, a fifth of it mismatched.
+// Returns what is seen there on the path, with a fifth of it mismatched.
 std::vector<route::TrackedFeature> WithMismatches(const test::TaughtRun& run) {
   auto seen = test::Matched(kCorridor, run, {1.0, 0.0, 0.0});
   for (std::size_t i = 0; i < seen.size() / 5; ++i) seen[i].u_px += 60.0;
@@ -241,7 +241,7 @@ TEST(PathEstimator, PassesOverMismatches) {
   EXPECT_NEAR(estimator.offset().left_m, 0.0, 0.03);
 }
 
-// What goes along with the camera is none of the route's features.
+// Something that goes along with the camera is none of the route's features.
 TEST(PathEstimator, IsNotHeldBackByAHandfulOfMismatches) {
   const auto run = test::TeachArcs(kCorridor, {}, {{2.0, 0.0}});
   PathEstimator estimator = AMetreAlong(run);

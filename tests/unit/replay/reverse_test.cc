@@ -12,7 +12,7 @@
 namespace trailcast::replay {
 namespace {
 
-// Whose landmarks are ahead of all that is driven below.
+// Its landmarks are ahead of all that is driven below.
 const test::LandmarkScene kReverseScene = test::LandmarkScene::Corridor(5.0, 16.0, 120, 39);
 constexpr double kReverseFrame_s = 1.0 / 30.0;
 

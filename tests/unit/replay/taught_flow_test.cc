@@ -69,7 +69,7 @@ TEST(DrawTogether, LeavesAFewAlone) {
   EXPECT_EQ(few[1].sigma_per_m, 0.1);
 }
 
-// What a route of segments, each of these arcs, teaches of a camera.
+// Returns what a route of segments, each of these arcs, teaches of a camera.
 TaughtFlow LearnOn(const std::vector<std::vector<test::Arc>>& segments, const test::ScoutEye& eye) {
   const test::LandmarkScene scene = test::LandmarkScene::Corridor(3.0, 20.0, 300, 7);
   TaughtFlow flow(320);

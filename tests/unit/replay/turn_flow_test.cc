@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kWidth_px = 320;
 
-// What a camera with such a lens has of a scene all round while it turns on the spot.
+// This is what a camera with such a lens has of a scene all round while it turns on the spot.
 class TurningEye {
  public:
   using Lens = double (*)(double focal_px, double from_axis_rad);
@@ -31,7 +31,7 @@ class TurningEye {
   }
 
  private:
-  // Of a share of the features, what slides along with the picture, as on a dirty lens.
+  // Returns the features, a share of which slides along with the picture, as on a dirty lens.
   std::vector<route::TrackedFeature> See(double heading_rad, double carried_share) {
     std::vector<route::TrackedFeature> seen;
     constexpr int kFeatures = 60;

@@ -103,7 +103,7 @@ TEST(Backwards, ARouteBeginsWithItsLastSegmentAtHalfTheTaughtSpeed) {
     EXPECT_TRUE((*back)[i].reverse);
     EXPECT_DOUBLE_EQ((*back)[i].speed_mps(), 0.5 * route[2 - i].speed_mps());
   }
-  // What was turned to the left before the second segment is turned to the right after it.
+  // A turn to the left before the second segment is a turn to the right after it.
   EXPECT_DOUBLE_EQ((*back)[0].turn_before_rad, 0.0);
   EXPECT_DOUBLE_EQ((*back)[1].turn_before_rad, 0.0);
   EXPECT_DOUBLE_EQ((*back)[2].turn_before_rad, -0.8);

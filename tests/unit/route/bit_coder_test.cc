@@ -14,7 +14,7 @@ struct Bit {
   int likely;
 };
 
-// As probable as they are said to be.
+// These bits are as probable as they are said to be.
 std::vector<Bit> SomeBits(std::size_t count, std::mt19937& random) {
   std::vector<Bit> bits;
   for (std::size_t i = 0; i < count; ++i) {

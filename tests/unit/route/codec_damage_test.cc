@@ -86,7 +86,8 @@ TEST(CodecDamage, NoBytesAreNoSegment) {
   EXPECT_EQ(decoded.error().code, ErrorCode::kCorrupt);
 }
 
-// What decodes in spite of the damage must still keep every promise a reader relies on.
+// A segment that decodes in spite of the damage must still keep every promise that a reader relies
+// on.
 void ExpectSane(const Result<Segment>& decoded) {
   if (!decoded) {
     EXPECT_EQ(decoded.error().code, ErrorCode::kCorrupt);

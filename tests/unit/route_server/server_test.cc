@@ -70,7 +70,7 @@ class ServerTest : public testing::Test {
     };
     return {info.scout, info, read, exchange::SegmentDigests(digests), {}};
   }
-  // Until all is receipted, or the server refuses something for a reason like this.
+  // Runs until all is acknowledged, or the server refuses something for a reason like this.
   static bool Delivers(exchange::RouteSender& sender, exchange::RouteExchange& exchange,
                        const std::string& until_refused = {}) {
     bool refused = false;
@@ -97,7 +97,7 @@ class ServerTest : public testing::Test {
     return false;
   }
 
-  // What is replied to words of the network: lines, or the error.
+  // Returns the reply to words about the network: lines, or the error.
   template <typename Words>
   std::string NetworkSays(exchange::RouteExchange& desk, const Words& words) {
     std::string said;
@@ -137,7 +137,7 @@ TEST_F(ServerTest, PassesOnWhatOperatorsTellRobotsAndTheirAnswersOnce) {
     const auto* passed = std::get_if<exchange::NowAnswer>(&message);
     return passed != nullptr && passed->relayed && passed->agent == AgentId("robot");
   }));
-  // What another server has passed on already is not passed on again.
+  // A command that another server has passed on already is not passed on again.
   exchange::NowCommand relayed = stop;
   relayed.relayed = true;
   relayed.number = 2;
@@ -358,7 +358,7 @@ TEST_F(MissionsTest, ThatWaitForTheirTurnAreMeantByACancellationToo) {
         exchange::CatalogRequest{AgentId("desk"), i, {.name = fmt::format("r{}", i)}}));
   }
   ASSERT_TRUE(desk_->Publish(Of("desk", "m1")));
-  // What is told on another topic may come first: the server has the mission once this is answered.
+  // A message on another topic may come first: the server has the mission once this is answered.
   ASSERT_TRUE(desk_->Publish(exchange::MissionRequest{.client = AgentId("lab"), .request = 1}));
   ASSERT_TRUE(Hears(*desk_, [](const exchange::Message& message) {
     return std::holds_alternative<exchange::MissionReply>(message);

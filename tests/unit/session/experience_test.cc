@@ -1,4 +1,4 @@
-// What a follower notes for a refreshed route, of a walk towards a wall.
+// These test what a follower notes for a refreshed route, on a walk towards a wall.
 #include <gtest/gtest.h>
 
 #include <algorithm>

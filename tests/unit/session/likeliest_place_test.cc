@@ -36,7 +36,7 @@ TEST(LikeliestPlaceTest, WhereFeaturesDoAboutAsWellItMayBeThere) {
                230.0);
 }
 
-// Of two places that look the same, one's segment has fewer features.
+// Two places look the same, and the segment of one has fewer features.
 TEST(LikeliestPlaceTest, WhereAsLargeAShareOfFewerFeaturesAgreesItMayBeThere) {
   ExpectPlaces({Place(9.0, 61, 61), Place(3.0, 50, 52)}, 9.0, 3.0, 9.0);
   ExpectPlaces({Place(9.0, 61, 61), Place(3.0, 40, 40)}, 9.0, 9.0, 9.0);

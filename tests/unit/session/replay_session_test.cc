@@ -373,7 +373,7 @@ TEST_P(ReplaySessionTest, ACameraThatHangsOtherwiseThanTheScoutsIsToldAndItsPict
   }
 }
 
-// Of a whole fleet whose cameras hang alike, and nobody has said so.
+// In a whole fleet all cameras hang alike, and nobody has said so.
 struct Turning {
   double roll_deg = 0.0;
   double odometry_sign = 1.0;

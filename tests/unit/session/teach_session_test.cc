@@ -20,8 +20,8 @@ using testing::HasSubstr;
 
 constexpr int kFrames = 90;
 
-// What a robot sees that drives on and turns to either side, ten pictures a second, the camera
-// rolled by so much; and what its odometry says.
+// This is what a robot sees that drives on and turns to either side, ten pictures a second, with
+// the camera rolled by so much, and what its odometry says.
 struct Drive {
   double roll_deg = 0.0;
   int straight = 0;            // so many frames before the first turn
@@ -127,7 +127,7 @@ TEST(TeachSession, WhatCannotBeTaughtAgainAnyMoreEndsTheTeaching) {
   EXPECT_EQ(Teach({.roll_deg = 0.0, .straight = 40}, few).error, "");
 }
 
-// What the robot was told knows left from right.
+// The robot's commands know left from right.
 TEST(TeachSession, OdometryThatCountsTurnsTheWrongWayTurnsNoPictureOfARobotThatIsToldHowToDrive) {
   EXPECT_FALSE(Teach({.odometry_sign = -1.0, .told = true}).anew);
   const Taught upside_down = Teach({.roll_deg = 180.0, .odometry_sign = -1.0, .told = true});

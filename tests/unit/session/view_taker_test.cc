@@ -34,8 +34,8 @@ struct Dirt {
   }
 };
 
-// Of a walk of some ten key views, seen by a robot that looks so many pixels to the right of where
-// the scout did.
+// Returns a picture of a walk of some ten key views, seen by a robot that looks so many pixels to
+// the right of where the scout did.
 image::GrayImage LapFrame(int number, Wall wall, int right_px = 0) {
   const image::GrayImage taught = test::WalkFrame(2 * number, kLapWidth_px + 2 * kSpare_px);
   image::GrayImage picture{kLapWidth_px, taught.height, {}};

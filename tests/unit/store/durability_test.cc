@@ -1,4 +1,4 @@
-// What waits for the disk. SQLite's calls for that come by here, and are counted.
+// These test what waits for the disk. SQLite's calls for that come by here, and are counted.
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// What a store in PostgreSQL promises beyond the contract of all stores.
+// These test what a store in PostgreSQL promises beyond the contract of all stores.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,4 +1,4 @@
-// What a loss of power, or a disk that fails for a moment, leaves of a store.
+// These test what a loss of power, or a disk that fails for a moment, leaves of a store.
 #include <gtest/gtest.h>
 
 #include "services/store/route_store.h"

@@ -87,7 +87,7 @@ TEST_F(SalvageTest, AFlippedByteCostsTheSegmentItIsIn) {
   EXPECT_EQ(OpenSqliteStore(saved_).value()->HeldSegments(kYard).value().size(), kSegments - 1);
 }
 
-// As when a sector of the disk is lost: at a page's beginning is what makes it a page.
+// A sector of the disk is lost: a page's beginning is what makes it a page.
 TEST_F(SalvageTest, SixtyFourLostBytesCostAFewSegmentsAndEachIsNamed) {
   const std::string whole = Read();
   std::size_t harmless = 0;

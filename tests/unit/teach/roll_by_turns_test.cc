@@ -56,7 +56,7 @@ class Robot {
     }
     return moved;
   }
-  // What a camera rolled clockwise sees lies counter-clockwise in its picture.
+  // A camera that is rolled clockwise sees things further counter-clockwise in its picture.
   [[nodiscard]] route::TrackedFeature Seen(int id, double right_px, double down_px) const {
     const double cosine = std::cos(roll_rad_);
     const double sine = std::sin(roll_rad_);

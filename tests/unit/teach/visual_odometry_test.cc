@@ -54,7 +54,7 @@ class Corridor {
   std::vector<CorridorMark> landmarks_;
 };
 
-// What a segment was, in truth and as it is told.
+// This is what a segment was, in truth and as it is told.
 struct ToldWay {
   double true_m = 0.0;
   double told_m = 0.0;

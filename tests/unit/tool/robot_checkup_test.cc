@@ -24,7 +24,7 @@ class RobotCheckupTest : public testing::Test {
     measures_.clocks_apart_s = 0.05;
     measures_.turn = agent::TurnMeasures{0.6, 0.58, 0.5, 0.0, 0.15, 0.02};
   }
-  // What is said of it, if anything is wrong.
+  // Returns what is said of it, if anything is wrong.
   std::string Complaints() {
     std::vector<Finding> findings = JudgeRobot(measures_, topics_);
     std::erase_if(findings, [](const Finding& each) { return each.grade == Grade::kGood; });

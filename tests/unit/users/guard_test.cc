@@ -172,7 +172,8 @@ TEST_F(GuardTest, ANameThatIsNobodysIsHashedLikeAnother) {
   EXPECT_EQ(hashed_, 3);
 }
 
-// Who is in is known while others' passwords are hashed, one at a time; few wait for that.
+// Users who are logged in are known while others' passwords are hashed, one at a time; few wait for
+// that.
 TEST_F(GuardTest, ManyAtOnceAreSentAwayAndHoldUpNobodyWhoIsIn) {
   const std::string session = LogIn("anna", "correct horse");
   Hold(true);

@@ -11,7 +11,7 @@ using test::Seeing;
 using test::SegmentToSee;
 using test::ViewOf;
 
-// Of one key view, its features of 1 to 2 pixels.
+// Returns a segment of one key view with features of 1 to 2 pixels.
 route::Segment Taught(unsigned number) {
   route::Segment segment;
   segment.key_views.push_back({0.0, ViewOf(SegmentToSee(number, 0), {.flipped_bits = 0})});

@@ -39,7 +39,7 @@ TEST(ViewMatch, TheSameFeaturesInAnotherArrangementDoNotAgree) {
   EXPECT_FALSE(Match(ViewOf(segment, {.shuffled = true}), segment).found());
 }
 
-// What is near has moved to the side against what is far.
+// Near things have moved to the side against far ones.
 TEST(ViewMatch, APlaceSeenFromAsideIsLessLikeIt) {
   const route::Segment segment = SegmentToSee(1, 0);
   route::View aside = ViewOf(segment);

@@ -68,7 +68,7 @@ TEST(PictureIntake, ReducesLargePicturesAboutTheirCentre) {
   }
 }
 
-// What a camera rolled clockwise sees lies counter-clockwise in its picture.
+// A camera that is rolled clockwise sees things further counter-clockwise in its picture.
 TEST(PictureIntake, TurnsPicturesUprightByAnyRollThatItAccepts) {
   constexpr double kRight = 0.15;
   constexpr double kDown = 0.05;  // of the spot, seen upright

@@ -44,7 +44,7 @@ TEST(DescribeForQuery, SeesNothingInABlankPicture) {
       DescribeForQuery({160, 120, std::vector<std::uint8_t>(std::size_t{160} * 120, 90)}).empty());
 }
 
-// What is looked for in a frame is what is looked for in the picture that it is reduced to.
+// A frame has the same features as the picture that it is reduced to.
 TEST(ViewPicture, ShowsWhatItsFrameDoes) {
   const test::PaintedWall wall(5);
   for (const int enlarged : {1, 2, 4}) {

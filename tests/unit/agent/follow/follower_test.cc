@@ -137,7 +137,7 @@ TEST_F(FollowerTest, IsToldToStandAndSaysWhyWhenItsLinkThreadThrows) {
   EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
 }
 
-// Of a hill that goes up by 0.1 rad.
+// These are about a hill that goes up by 0.1 rad.
 class SlopeTest : public FollowerTest {
  protected:
   void TeachUphill(const std::string& agent, bool send) {
@@ -395,7 +395,7 @@ TEST_F(FollowerTest, ArrivesWhereItsStretchEndsAndIsLostWhereItIsFoundFarBeyond)
   EXPECT_EQ(carried.told.back(), motion::VelocityCommand{});
 }
 
-// Of whose pictures nothing is to be seen above so many of their rows.
+// This is a device whose pictures show nothing above so many of their rows.
 class FoggyDevice : public WalkDevice {
  public:
   FoggyDevice(int frames, std::function<std::size_t(int)> rows)

@@ -21,7 +21,7 @@ Neighbour At(const std::string& name, double along_m, double speed_mps = 0.0, do
 
 class KeepDistanceTest : public testing::Test {
  protected:
-  // What robot "b" does at this place.
+  // Returns what robot "b" does at this place.
   Spacing At5m(const std::vector<Neighbour>& others) {
     return b_.Keep(5.0, kSpeed_mps, others, kNow);
   }

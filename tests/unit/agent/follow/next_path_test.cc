@@ -20,7 +20,7 @@ constexpr double kJoint_m = 0.6;
 constexpr int kBeforeJoint = 25;
 constexpr int kWaitsAtMost = 5000;  // frames
 
-// What a walk elsewhere looks like.
+// This is what a walk elsewhere looks like.
 class ElsewhereDevice : public WalkDevice {
  public:
   using WalkDevice::WalkDevice;

@@ -1,4 +1,5 @@
-// What the fleet hears of a follower whose robot falls silent on the way, or waits for somebody.
+// These test what the fleet hears of a follower whose robot falls silent on the way, or waits for
+// somebody.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -44,7 +45,7 @@ class SilentDevice : public test::DrivenDevice {
   std::chrono::nanoseconds late_{0};  // as long as it was silent, by its own clock
 };
 
-// What is in the status of an agent while its robot gives no frames.
+// Expects this in the status of an agent while its robot gives no frames.
 void ExpectStatus(const RobotDevice::Halt& why, AgentMode mode) {
   test::Swarm swarm;
   test::WalkDevice scout(kTaughtFrames);

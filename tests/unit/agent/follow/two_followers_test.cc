@@ -42,7 +42,7 @@ class TwoFollowersTest : public testing::Test {
                          [this, options, &device] { return swarm_.Replay(device, options, true); });
     return runs_.emplace_back(run);
   }
-  // What an operator sees of the agents: waits until one is as wanted.
+  // Waits until an operator sees one of the agents as wanted.
   bool See(const std::function<bool(const AgentStatus&)>& wanted) {
     const auto deadline = steady_clock::now() + test::kLongEnough;
     while (steady_clock::now() < deadline) {

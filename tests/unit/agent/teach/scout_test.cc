@@ -31,7 +31,7 @@ using testing::SizeIs;
 
 constexpr int kFrames = 150;
 
-// What is said while it lives.
+// This collects what is said while it lives.
 class Said {
  public:
   Said() {

@@ -24,7 +24,7 @@ constexpr int kFailsAt = 110;
 
 class UnfinishedTest : public testing::Test {
  protected:
-  // As when the camera fails on the way.
+  // Teaches until the camera fails on the way.
   void TeachAndFail() {
     test::WalkDevice device(kFrames);
     device.before_frame = [](int frame) -> Result<void> {
@@ -34,7 +34,7 @@ class UnfinishedTest : public testing::Test {
     ASSERT_FALSE(swarm_.Teach(device, Scout(), false));
     ASSERT_TRUE(All().at(0).cut_off);
   }
-  // As when the scout is killed: of what it taught, all but the last segment.
+  // Leaves what a killed scout leaves: all that it taught but the last segment.
   void TeachAndDie() {
     test::WalkDevice device(kFailsAt);
     ASSERT_TRUE(swarm_.Teach(device, swarm_.ScoutNamed("whole"), false));

@@ -29,7 +29,7 @@ class DemoDispatchTest : public ::testing::Test {
     status.segment = segment;
     return status;
   }
-  // Whom missions are for.
+  // Returns the robots that missions are for.
   std::vector<std::string> DueAt(int ms) {
     std::vector<std::string> robots;
     for (const exchange::Message& message :

@@ -47,7 +47,7 @@ class JourneyReportTest : public ::testing::Test {
       out << fmt::format("{},{},{},0\n", 21 + i, to_m.x() + 0.1 * i, to_m.y());
     }
   }
-  // Of the journeys, that of the robot that is to be carried off.
+  // Returns the journey of the robot that is to be carried off.
   [[nodiscard]] std::size_t Carried() const {
     std::size_t carried = 0;
     while (Sent(carried).carry.empty()) ++carried;
@@ -82,7 +82,7 @@ TEST_F(JourneyReportTest, WhoSaysSoAndStandsAtTheGoalHasArrived) {
   EXPECT_TRUE(report->rows[Other()].arrived);
   EXPECT_EQ(report->taught.size(), 3U);
   EXPECT_THAT(JourneyTable(*report), Not(HasSubstr("FAILED")));
-  // What was driven by who was carried off is in two parts.
+  // The path of the robot that was carried off is in two parts.
   EXPECT_EQ(JourneyPaths(plan_, *report).size(), plan_.robots.size() + 1);
 }
 

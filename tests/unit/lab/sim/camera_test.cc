@@ -83,7 +83,7 @@ TEST(Camera, BarrelDrawsTheEdgeInwards) {
   straight.distortion = 0.0;
   CameraModel barrel = straight;
   barrel.distortion = 0.3;
-  // Of the same field of view, the barrel shows the inner half of it larger.
+  // The barrel shows the inner half of the same field of view larger.
   const Eigen::Vector3d inner(std::tan(Radians(15.0)), 0.0, 1.0);
   EXPECT_GT(Lens(barrel).Project(inner)->x(), Lens(straight).Project(inner)->x() + 1.0);
 }

@@ -26,7 +26,7 @@ std::vector<float> LookInto(const Place& place) {
   return renderer.Render(pose).gray;
 }
 
-// Of the pixels, how many are other by more than a few grey levels.
+// Returns the share of pixels that differ by more than a few grey levels.
 double Changed(const std::vector<float>& a, const std::vector<float>& b) {
   std::size_t changed = 0;
   for (std::size_t i = 0; i < a.size(); ++i) changed += std::abs(a[i] - b[i]) > 8.0F ? 1 : 0;

@@ -76,7 +76,7 @@ double TiltRad(const Eigen::Isometry3d& pose) {
   return std::max(std::abs(std::asin(r(2, 0))), std::abs(std::asin(r(2, 1))));
 }
 
-// What a camera at the way's start sees.
+// Returns what a camera at the path's start sees.
 std::vector<float> FirstPicture(const Place& place) {
   CameraRenderer renderer(place.world, *FindCamera("webcam"));
   const auto poses = Walk(place).Poses(1e9);

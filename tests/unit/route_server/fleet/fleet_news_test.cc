@@ -24,7 +24,7 @@ class FleetNewsTest : public testing::Test {
             AgentMode mode = AgentMode::kReplaying) {
     news_.Handle(AgentStatus{.agent = AgentId(agent), .instance = instance, .mode = mode});
   }
-  // What is told of names now that they have changed.
+  // Returns what is told of names now that they have changed.
   std::vector<ClaimedName> Told() {
     now_ += FleetNews::kClaimsEvery;
     const auto fleet = news_.Due(now_);

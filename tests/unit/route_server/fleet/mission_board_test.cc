@@ -47,7 +47,7 @@ class MissionBoardTest : public testing::Test {
     unix_ms_ += time.count();
   }
   std::vector<exchange::Message> Say() { return board_->Tick(now_, unix_ms_); }
-  // What it says of missions, and what it hands over.
+  // Returns what it says of missions, and what it hands over.
   std::optional<Report> Said() {
     std::optional<Report> report;
     for (const exchange::Message& message : Say()) {

@@ -76,7 +76,7 @@ class LaneKeeperTest : public testing::Test {
                                       .detail = "xyzzy"},
                       now_, 1000);
   }
-  // What is said when it is heard, a second later.
+  // Returns what is said when it is heard, a second later.
   std::vector<std::string> IsAt(const std::string& robot, unsigned route, double along_m) {
     now_ += seconds(1);
     exchange::AgentStatus status;
@@ -159,7 +159,7 @@ TEST_F(LaneKeeperTest, WhoseItIsStandsAlsoAfterARestart) {
   EXPECT_THAT(IsAt("robot1", 1, 16.0), Contains("robot1 has left hall 10..14"));
 }
 
-// What there is no room for in one line of orders is told short.
+// A reason that has no room in one line of orders is told short.
 TEST_F(LaneKeeperTest, AReasonThatIsToldShortIsToldOnce) {
   Meet();
   std::string way = "goto back@38 follow back 5..25.5 wait lane follow back 25.5..38";

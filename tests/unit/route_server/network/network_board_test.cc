@@ -78,7 +78,7 @@ class NetworkBoardTest : public testing::Test {
   static route::RouteKey Key(unsigned number, std::uint64_t teaching = 1) {
     return test::KeyNumber(number, teaching);
   }
-  // What it adds, "taken: .." where it is made at once.
+  // Returns what it adds, "taken: .." if it is made at once.
   std::string Propose(const Meeting& meeting, double take_from = 2.0) {
     const auto proposed = board_->Propose(meeting, take_from, 1000);
     EXPECT_TRUE(proposed) << proposed.error().message;

@@ -48,7 +48,7 @@ class ReplanningTest : public testing::Test {
     missions_ = MissionBoard::Open(AgentId("server"), std::move(*missions)).value();
     replanning_.emplace(*missions_, *network_);
   }
-  // What an operator who changes it is told of robots.
+  // Returns what an operator who changes it is told of robots.
   std::vector<std::string> Edit(const std::string& words) {
     const auto reply = network_->Change({AgentId("desk"), ++requests_, words}, 1000);
     EXPECT_EQ(reply.error, "") << words;
@@ -78,7 +78,7 @@ class ReplanningTest : public testing::Test {
                       now_, 1000);
   }
   void AskForWay(std::uint32_t way = 1) { Say(State::kFetching, 0, way, mission::WaitsFor::kWay); }
-  // What is said of it when it is heard.
+  // Returns what is said of it when it is heard.
   std::string IsAt(unsigned route, double along_m, double speed_mps = 0.0) {
     return Hear(exchange::PlaceOnRoute{test::KeyNumber(route, 1), along_m}, speed_mps);
   }

@@ -31,7 +31,7 @@ class MirrorWatchTest : public testing::Test {
       for (exchange::Message& message : theirs_.Tick(now_)) said_ = std::move(message);
     }
   }
-  // Of what the other has said of all that it holds.
+  // Compares with what the other has said of all that it holds.
   Lines Compare() {
     ours_.Handle(said_, now_);
     return watch_.Look(ours_, now_);

@@ -30,7 +30,7 @@ class RefreshWatchTest : public testing::Test {
     }
     return segments;
   }
-  // Of one route.
+  // Keeps a revision of one route.
   route::RouteInfo Keep(unsigned revision, route::Standing standing,
                         const std::vector<route::Segment>& segments, unsigned refreshes = 0) {
     route::RouteKey key = test::KeyNumber(1);
