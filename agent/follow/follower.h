@@ -19,7 +19,7 @@
 
 namespace trailcast::agent {
 
-class Glances;
+class Snapshots;
 
 struct FollowerOptions {
   FollowerLinkOptions link;
@@ -34,7 +34,7 @@ struct FollowerOptions {
   KeepDistanceOptions keep_distance;
   // A robot that gets no further along the route for so long, by its sensors' time, gives up.
   std::chrono::seconds stuck_after{60};
-  Glances* glances = nullptr;  // for people who look through its camera; may be null
+  Snapshots* snapshots = nullptr;  // for people who look through its camera; may be null
   // Returns the route on which it goes on where this one ends for it, null for none, or nothing for
   // no change. The control loop calls it at each frame with its knowledge of the robot's camera.
   using Next = std::optional<std::unique_ptr<NextPath>>;

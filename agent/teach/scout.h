@@ -15,7 +15,7 @@
 
 namespace trailcast::agent {
 
-class Glances;
+class Snapshots;
 
 struct ScoutOptions {
   std::string route;  // name
@@ -25,7 +25,7 @@ struct ScoutOptions {
   bool review = false;                // no robot follows it before an operator activates it
   Unfinished unfinished = Unfinished::kKeep;
   vision::IntakeOptions intake = {};
-  Glances* glances = nullptr;  // for people who look through its camera; may be null
+  Snapshots* snapshots = nullptr;  // for people who look through its camera; may be null
 };
 
 // Teaches a route with what `device` sees until its drive is over or `options.link.stop` returns

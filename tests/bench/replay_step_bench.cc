@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "agent/diagnosis/glance_view.h"
+#include "agent/diagnosis/snapshot_view.h"
 #include "agent/session/hand_over.h"
 #include "agent/session/replay_session.h"
 #include "agent/session/teach_session.h"
@@ -198,34 +198,34 @@ BENCHMARK_CAPTURE(WholeStep, WithoutOdometry, false)
     ->Unit(benchmark::kMillisecond);
 
 // This measures what the control loop pays for a frame that somebody looks at.
-void HandOverAGlance(benchmark::State& state) {
+void HandOverASnapshot(benchmark::State& state) {
   agent::ReplaySession session = SessionOn(10.0, true);
   // The session looks at a frame that is still there, as in the loop.
   const agent::Observation observation{FromSeconds(0.0), Frames()[0], motion::Pose2{}};
   const auto step = session.Observe(observation);
   for ([[maybe_unused]] auto _ : state) {
-    agent::GlanceFrame frame{*session.picture(), session.ViewFeatures(*step), step->sight.stored,
-                             step->turn_rad};
+    agent::SnapshotFrame frame{*session.picture(), session.ViewFeatures(*step), step->sight.stored,
+                               step->turn_rad};
     benchmark::DoNotOptimize(frame);
   }
   state.counters["features"] = static_cast<double>(session.ViewFeatures(*step).size());
 }
-BENCHMARK(HandOverAGlance)->Unit(benchmark::kMillisecond);
+BENCHMARK(HandOverASnapshot)->Unit(benchmark::kMillisecond);
 
 // And a thread that gives way to it.
-void MakeAGlance(benchmark::State& state) {
+void MakeASnapshot(benchmark::State& state) {
   agent::ReplaySession session = SessionOn(10.0, true);
   const agent::Observation observation{FromSeconds(0.0), Frames()[0], motion::Pose2{}};
   const auto step = session.Observe(observation);
-  const agent::GlanceFrame frame{*session.picture(), session.ViewFeatures(*step),
-                                 step->sight.stored, step->turn_rad};
+  const agent::SnapshotFrame frame{*session.picture(), session.ViewFeatures(*step),
+                                   step->sight.stored, step->turn_rad};
   std::size_t bytes = 0;
   for ([[maybe_unused]] auto _ : state) {
-    bytes = image::EncodeJpeg(agent::DrawGlance(frame), 70)->size();
+    bytes = image::EncodeJpeg(agent::DrawSnapshot(frame), 70)->size();
   }
   state.counters["bytes"] = static_cast<double>(bytes);
 }
-BENCHMARK(MakeAGlance)->Unit(benchmark::kMillisecond);
+BENCHMARK(MakeASnapshot)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace trailcast

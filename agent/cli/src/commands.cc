@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "agent/camera_view/glances.h"
+#include "agent/camera_view/snapshots.h"
 #include "agent/duty/on_duty.h"
 #include "agent/duty/refreshing.h"
 #include "agent/fetch/fetch.h"
@@ -67,7 +67,7 @@ exchange::TopicUse TeachingToo(exchange::TopicUse use) {
 
 // Adds the topics of a robot whose camera others look through: it hears their requests and answers
 // them.
-exchange::TopicUse WithGlances(exchange::TopicUse use) {
+exchange::TopicUse WithSnapshots(exchange::TopicUse use) {
   const exchange::TopicUse theirs = exchange::GlanceTopics();
   use.read.insert(use.read.end(), theirs.write.begin(), theirs.write.end());
   use.write_rarely.insert(use.write_rarely.end(), theirs.read.begin(), theirs.read.end());
@@ -230,16 +230,16 @@ Result<int> RunTeach(const CommandOptions& options, const TeachCommand& teach) {
   if (!opened) return tl::unexpected(opened.error());
   auto store = store::OpenSqliteStore(options.store_file);
   if (!store) return tl::unexpected(store.error());
-  auto exchange = Join(options, WithGlances(exchange::ScoutTopics()));
+  auto exchange = Join(options, WithSnapshots(exchange::ScoutTopics()));
   if (!exchange) return tl::unexpected(exchange.error());
-  Glances glances(AgentId(options.common.name));
+  Snapshots snapshots(AgentId(options.common.name));
   ScoutOptions scout{teach.route,         LinkOptions(options, teach.delivery_timeout_s),
                      teach.tags,          teach.place,
                      teach.review,        UnfinishedOf(teach.unfinished),
-                     teach.device.intake, &glances};
+                     teach.device.intake, &snapshots};
   scout.link.vitals = VitalsOf(*opened->device, options);
   const auto summary =
-      Teach(*opened->device, scout, std::move(*store), glances.Through(std::move(*exchange)));
+      Teach(*opened->device, scout, std::move(*store), snapshots.Through(std::move(*exchange)));
   if (auto truth = opened->TruthWritten(); !truth) return tl::unexpected(truth.error());
   return Ended(summary, options);
 }
@@ -296,14 +296,14 @@ Result<int> RunReplay(const CommandOptions& options, const ReplayCommand& replay
   if (!opened) return tl::unexpected(opened.error());
   auto store = store::OpenSqliteStore(options.store_file, kOfCopies);
   if (!store) return tl::unexpected(store.error());
-  auto exchange = Join(options, WithGlances(FollowersTopics(options, exchange::ReplayTopics())));
+  auto exchange = Join(options, WithSnapshots(FollowersTopics(options, exchange::ReplayTopics())));
   if (!exchange) return tl::unexpected(exchange.error());
-  Glances glances(AgentId(options.common.name));
+  Snapshots snapshots(AgentId(options.common.name));
   FollowerOptions follower = MakeFollowerOptions(options, replay, *ref);
-  follower.glances = &glances;
+  follower.snapshots = &snapshots;
   follower.link.vitals = VitalsOf(*opened->device, options);
   const auto outcome =
-      Replay(*opened->device, follower, std::move(*store), glances.Through(std::move(*exchange)));
+      Replay(*opened->device, follower, std::move(*store), snapshots.Through(std::move(*exchange)));
   if (!outcome) return tl::unexpected(outcome.error());
   auto written = Tell(outcome->summary, options);
   if (!replay.csv.empty() && written) written = outcome->log.WriteCsv(replay.csv);

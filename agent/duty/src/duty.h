@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "agent/camera_view/glances.h"
+#include "agent/camera_view/snapshots.h"
 #include "agent/duty/on_duty.h"
 #include "agent/duty/src/relocalisation.h"
 #include "agent/duty/src/turning.h"
@@ -79,7 +79,7 @@ class Duty {
 
   RobotDevice& device_;
   const OnDutyOptions& options_;
-  Glances glances_;
+  Snapshots snapshots_;
   LastingExchange exchange_;
   NowDesk now_desk_;
   FollowedNote followed_note_;

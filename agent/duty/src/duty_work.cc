@@ -155,7 +155,7 @@ FollowerOptions Duty::FollowerFor(const mission::Task& task) {
   follower.link.vitals = options_.vitals;
   follower.link.stop = [this] { return options_.stop() || turned_off_; };
   follower.how.session.lens = lens_;
-  follower.glances = &glances_;
+  follower.snapshots = &snapshots_;
   return follower;
 }
 
@@ -339,7 +339,7 @@ ScoutOptions Duty::ScoutFor(const mission::Task& task) {
   ScoutOptions scout = options_.scout(task);
   scout.route = task.route.route;
   scout.tags = task.tags;
-  scout.glances = &glances_;
+  scout.snapshots = &snapshots_;
   scout.link.instance = instance_;
   scout.link.vitals = options_.vitals;
   scout.link.besides = [this](exchange::AgentStatus& status) { AddDuty(status); };

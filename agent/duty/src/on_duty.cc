@@ -34,8 +34,8 @@ Duty::Duty(RobotDevice& device, const OnDutyOptions& options,
            std::unique_ptr<exchange::RouteExchange> exchange)
     : device_(device),
       options_(options),
-      glances_(options.agent),
-      exchange_(glances_.Through(std::move(exchange))),
+      snapshots_(options.agent),
+      exchange_(snapshots_.Through(std::move(exchange))),
       now_desk_(options.agent, options.stop_file),
       followed_note_(options.agent),
       desk_(options.agent, options.missions_file),
@@ -184,7 +184,7 @@ Result<void> Duty::Run() {
     const bool drives = next_ || turning_;
     (void)exchange_.Take(drives ? milliseconds(0) : kWait);
     if (!drives) RefreshVisited();
-    glances_.ShowIfWanted(device_);
+    snapshots_.ShowIfWanted(device_);
     NoteAilment(steady_clock::now());
     if (desk_.current()) {
       Work();

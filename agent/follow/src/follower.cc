@@ -6,7 +6,7 @@
 #include <ctime>
 #include <utility>
 
-#include "agent/camera_view/glances.h"
+#include "agent/camera_view/snapshots.h"
 #include "agent/device/fault_subscription.h"
 #include "agent/device/standstill.h"
 #include "agent/follow/known_path.h"
@@ -110,7 +110,7 @@ class Loop {
                                                           double end_m) const;
   [[nodiscard]] bool ChangesOver(const Observation& observation);
   [[nodiscard]] Result<bool> EndAt(double end_m);
-  void ShowGlance(const ReplayStep& step);
+  void ShowSnapshot(const ReplayStep& step);
   void ShowWaiting();
   void Tell(const ReplayStep& step);
   void TellTrouble(const RobotDevice::Halt& halt);
@@ -297,7 +297,7 @@ Result<bool> Loop::Step(const Observation& observation) {
   if (auto driven = device_.Drive(step->command); !driven) return tl::unexpected(driven.error());
   told_ = step->command;
   link_.Report(*step);
-  ShowGlance(*step);
+  ShowSnapshot(*step);
   if (observation.unknown.distance_m > 0.0) {
     diagnosis_.Note("odometry", fmt::format("jumped: {:.2f} m may have been driven meanwhile",
                                             observation.unknown.distance_m));
@@ -387,20 +387,20 @@ bool Loop::PassedEnd(const ReplayStep& step, double end_m) const {
 }
 
 // It comes after the command, so that a viewer delays only the next frame, by the time of a copy.
-void Loop::ShowGlance(const ReplayStep& step) {
-  if (options_.glances == nullptr || !options_.glances->wanted()) return;
-  GlanceFrame frame;
+void Loop::ShowSnapshot(const ReplayStep& step) {
+  if (options_.snapshots == nullptr || !options_.snapshots->wanted()) return;
+  SnapshotFrame frame;
   frame.picture = *path_.session()->picture();
   if (looked_) {
     frame.features = path_.session()->ViewFeatures(step);
     frame.stored = step.sight.stored;
     frame.turn_rad = step.turn_rad;
   }
-  options_.glances->Show(std::move(frame));
+  options_.snapshots->Show(std::move(frame));
 }
 
 void Loop::ShowWaiting() {
-  if (options_.glances != nullptr) options_.glances->ShowIfWanted(device_);
+  if (options_.snapshots != nullptr) options_.snapshots->ShowIfWanted(device_);
 }
 
 void Loop::Tell(const ReplayStep& step) {

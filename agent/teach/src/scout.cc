@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "agent/camera_view/glances.h"
+#include "agent/camera_view/snapshots.h"
 #include "agent/device/fault_subscription.h"
 #include "agent/device/standstill.h"
 #include "agent/session/teach_session.h"
@@ -201,8 +201,8 @@ Result<void> TeachLoop(RobotDevice& device, Observation first, const ScoutOption
     now.speed_mps = pace.Measure(*observation);
     now.drive_progress = device.drive_progress();
     link.Report(now);
-    if (options.glances != nullptr && options.glances->wanted()) {
-      options.glances->Show({.picture = observation->image});
+    if (options.snapshots != nullptr && options.snapshots->wanted()) {
+      options.snapshots->Show({.picture = observation->image});
     }
     if (!result) break;
     const auto goes_on = Steer(device, teleoperation, told);

@@ -85,7 +85,7 @@ TEST(Comments, AFragmentAndAPrivateWordAreFound) {
               ElementsAre(StartsWith("a.h:1: 'What"), StartsWith("a.h:4: 'As Wait"),
                           StartsWith("a.h:5: 'stretch")));
   // The string below is in two parts, because the test above reads this file, too.
-  EXPECT_THAT(Unplain(CommentsIn("a.h", {"// It waits, see glance_desk.h.",
+  EXPECT_THAT(Unplain(CommentsIn("a.h", {"// It waits, see glance_command.cc.",
                                          "call(\"  //"
                                          " Of\");"})),
               IsEmpty());

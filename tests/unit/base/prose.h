@@ -82,7 +82,7 @@ inline std::vector<Paragraph> ParagraphsOf(const Document& document) {
   return paragraphs;
 }
 
-// Names of code and of files, such as glance_desk.h, are no words.
+// Names of code and of files, such as glance_command.cc, are no words.
 inline bool IsWordAt(const std::string& text, std::size_t at, std::string_view word) {
   const auto ends = [&](std::size_t i) {
     return i >= text.size() || !(IsLetter(text[i]) || text[i] == '_');

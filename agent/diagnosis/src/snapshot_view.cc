@@ -1,4 +1,4 @@
-#include "agent/diagnosis/glance_view.h"
+#include "agent/diagnosis/snapshot_view.h"
 
 #include <fmt/format.h>
 
@@ -55,7 +55,7 @@ void DrawTurn(Canvas& canvas, double turn_rad, int top) {
 
 }  // namespace
 
-image::RgbImage DrawGlance(const GlanceFrame& frame) {
+image::RgbImage DrawSnapshot(const SnapshotFrame& frame) {
   const image::GrayImage& picture = frame.picture;
   if (picture.empty()) return {};
   const Scaled scaled{picture, std::min(1.0, static_cast<double>(kMostWidth_px) / picture.width)};
@@ -71,7 +71,7 @@ image::RgbImage DrawGlance(const GlanceFrame& frame) {
   return canvas.picture();
 }
 
-std::string GlanceText(const GlanceFrame& frame) {
+std::string SnapshotText(const SnapshotFrame& frame) {
   if (!frame.turn_rad) return "no turn is asked for";
   const auto count = [&](FeatureVerdict verdict) { return CountOf(frame.features, verdict); };
   std::string text = fmt::format("turns {:.1f} degrees {}", Degrees(std::abs(*frame.turn_rad)),

@@ -10,7 +10,7 @@
 namespace trailcast::agent {
 
 // A camera's frame, and what the robot makes of it.
-struct GlanceFrame {
+struct SnapshotFrame {
   image::GrayImage picture{};
   std::vector<replay::FeatureView> features{};
   int stored = 0;                    // features that the segment has
@@ -24,9 +24,9 @@ struct GlanceFrame {
 // where it will be at the milestone, in its verdict's colour and shape: a disc inside its funnel
 // lane, a triangle to the side that it asks for, and a cross if it is rejected, with a line to
 // where it should be. A strip below shows the turn that a following robot asks for.
-[[nodiscard]] image::RgbImage DrawGlance(const GlanceFrame& frame);
+[[nodiscard]] image::RgbImage DrawSnapshot(const SnapshotFrame& frame);
 
 // Returns the same in words of ASCII.
-[[nodiscard]] std::string GlanceText(const GlanceFrame& frame);
+[[nodiscard]] std::string SnapshotText(const SnapshotFrame& frame);
 
 }  // namespace trailcast::agent

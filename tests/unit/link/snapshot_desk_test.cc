@@ -1,4 +1,4 @@
-#include "agent/link/glance_desk.h"
+#include "agent/link/snapshot_desk.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 using std::chrono::milliseconds;
 
 // These are about robot1, at a time that passes when the test says so.
-class GlanceDeskTest : public testing::Test {
+class SnapshotDeskTest : public testing::Test {
  protected:
   void Ask(const std::string& client, std::uint64_t request, const std::string& robot = "robot1") {
     desk_.Handle(
@@ -28,11 +28,11 @@ class GlanceDeskTest : public testing::Test {
     return given->client.value() + std::to_string(given->request);
   }
 
-  GlanceDesk::Time now_{};
-  GlanceDesk desk_{AgentId("robot1")};
+  SnapshotDesk::Time now_{};
+  SnapshotDesk desk_{AgentId("robot1")};
 };
 
-TEST_F(GlanceDeskTest, MakesOnePictureForEachRequestAndNoneOtherwise) {
+TEST_F(SnapshotDeskTest, MakesOnePictureForEachRequestAndNoneOtherwise) {
   EXPECT_EQ(Served(), "");
   Ask("desk", 7);
   EXPECT_EQ(Served(), "desk7");
@@ -42,7 +42,7 @@ TEST_F(GlanceDeskTest, MakesOnePictureForEachRequestAndNoneOtherwise) {
   EXPECT_EQ(Served(), "") << "another robot is meant";
 }
 
-TEST_F(GlanceDeskTest, GivesFiveASecondInAllHoweverManyAskHoweverOften) {
+TEST_F(SnapshotDeskTest, GivesFiveASecondInAllHoweverManyAskHoweverOften) {
   int given = 0;
   for (int ms = 0; ms < 10'000; ms += 10) {
     now_ += milliseconds(10);
@@ -54,19 +54,19 @@ TEST_F(GlanceDeskTest, GivesFiveASecondInAllHoweverManyAskHoweverOften) {
   EXPECT_EQ(given, 50);
 }
 
-TEST_F(GlanceDeskTest, ServesWhoHasWaitedLongestWithTheNewestRequest) {
+TEST_F(SnapshotDeskTest, ServesWhoHasWaitedLongestWithTheNewestRequest) {
   Ask("a", 1);
   Ask("b", 1);
   Ask("a", 2);
   EXPECT_EQ(Served(), "a2");
   Ask("a", 3);
-  now_ += GlanceDesk::kEvery;
+  now_ += SnapshotDesk::kEvery;
   EXPECT_EQ(Served(), "b1");
-  now_ += GlanceDesk::kEvery;
+  now_ += SnapshotDesk::kEvery;
   EXPECT_EQ(Served(), "a3");
 }
 
-TEST_F(GlanceDeskTest, MoreThanEightThatWaitAreNotHeard) {
+TEST_F(SnapshotDeskTest, MoreThanEightThatWaitAreNotHeard) {
   std::string waiting = "abcdefgh";
   std::string served;
   while (served.size() < 8) {
@@ -77,17 +77,17 @@ TEST_F(GlanceDeskTest, MoreThanEightThatWaitAreNotHeard) {
     ASSERT_FALSE(client.empty());
     served += client[0];
     std::erase(waiting, client[0]);
-    now_ += GlanceDesk::kEvery;
+    now_ += SnapshotDesk::kEvery;
   }
   EXPECT_EQ(served, "abcdefgh");
   EXPECT_EQ(Served(), "");
 }
 
-TEST_F(GlanceDeskTest, SaysWhyBeforeWhoAsksGivesUp) {
+TEST_F(SnapshotDeskTest, SaysWhyBeforeWhoAsksGivesUp) {
   Ask("desk", 7);
   ASSERT_TRUE(desk_.Asks(now_));
   EXPECT_FALSE(desk_.Asks(now_)) << "one at a time";
-  now_ += GlanceDesk::kPatience;
+  now_ += SnapshotDesk::kPatience;
   EXPECT_FALSE(desk_.AskedInVain(now_));
   now_ += milliseconds(1);
   ASSERT_TRUE(desk_.AskedInVain(now_));
@@ -99,10 +99,10 @@ TEST_F(GlanceDeskTest, SaysWhyBeforeWhoAsksGivesUp) {
   EXPECT_FALSE(desk_.Give({.jpeg = {1}}, now_)) << "it comes too late";
 }
 
-TEST_F(GlanceDeskTest, WhoGaveUpMeanwhileGetsNothing) {
+TEST_F(SnapshotDeskTest, WhoGaveUpMeanwhileGetsNothing) {
   Ask("desk", 7);
   ASSERT_TRUE(desk_.Asks(now_));
-  now_ += GlanceDesk::kAskedFor + milliseconds(1);
+  now_ += SnapshotDesk::kAskedFor + milliseconds(1);
   EXPECT_FALSE(desk_.Give({.jpeg = {1}}, now_));
   Ask("desk", 8);
   EXPECT_EQ(Served(), "desk8");

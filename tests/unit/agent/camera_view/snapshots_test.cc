@@ -1,4 +1,4 @@
-#include "agent/camera_view/glances.h"
+#include "agent/camera_view/snapshots.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 using testing::HasSubstr;
 
-class GlancesTest : public testing::Test {
+class SnapshotsTest : public testing::Test {
  protected:
   void Ask(std::uint64_t request) {
     ASSERT_TRUE(desk_->Publish(exchange::GlanceRequest{
@@ -31,7 +31,7 @@ class GlancesTest : public testing::Test {
     const auto until = steady_clock::now() + test::kLongEnough;
     while (steady_clock::now() < until) {
       (void)robot_->Take(milliseconds(5));
-      if (glances_.wanted()) show();
+      if (snapshots_.wanted()) show();
       for (const exchange::Message& message : desk_->Take(milliseconds(0))) {
         if (const auto* glance = std::get_if<exchange::Glance>(&message)) return *glance;
       }
@@ -40,38 +40,38 @@ class GlancesTest : public testing::Test {
   }
 
   exchange::InProcessBus bus_;
-  Glances glances_{AgentId("robot1")};
+  Snapshots snapshots_{AgentId("robot1")};
   std::unique_ptr<exchange::RouteExchange> robot_ =
-      glances_.Through(bus_.Open(program::WithAgents(exchange::OnDutyTopics())));
+      snapshots_.Through(bus_.Open(program::WithAgents(exchange::OnDutyTopics())));
   std::unique_ptr<exchange::RouteExchange> desk_ = bus_.Open(exchange::GlanceTopics());
 };
 
-TEST_F(GlancesTest, WhoAsksGetsAPictureOfFewBytesThatShowsWhatTheRobotSees) {
+TEST_F(SnapshotsTest, WhoAsksGetsAPictureOfFewBytesThatShowsWhatTheRobotSees) {
   Ask(7);
-  GlanceFrame frame{.picture = test::WalkFrame(3)};
+  SnapshotFrame frame{.picture = test::WalkFrame(3)};
   frame.turn_rad = 0.1;
-  const auto glance = Answer([&] { glances_.Show(frame); });
+  const auto glance = Answer([&] { snapshots_.Show(frame); });
   ASSERT_TRUE(glance);
   EXPECT_EQ(glance->request, 7U);
-  EXPECT_LE(glance->picture.size(), Glances::kMostBytes);
+  EXPECT_LE(glance->picture.size(), Snapshots::kMostBytes);
   EXPECT_THAT(glance->detail, HasSubstr("right"));
   const auto picture = image::DecodeRgb(glance->picture, "glance");
   ASSERT_TRUE(picture) << picture.error().message;
   EXPECT_EQ(picture->width, frame.picture.width);
 }
 
-TEST_F(GlancesTest, APictureThatIsHardToEncodeIsCoarserAndNotLarger) {
+TEST_F(SnapshotsTest, APictureThatIsHardToEncodeIsCoarserAndNotLarger) {
   std::mt19937 random(1);
-  GlanceFrame noise{.picture = {640, 480, std::vector<std::uint8_t>(640 * 480)}};
+  SnapshotFrame noise{.picture = {640, 480, std::vector<std::uint8_t>(640 * 480)}};
   for (std::uint8_t& pixel : noise.picture.pixels) pixel = static_cast<std::uint8_t>(random());
   Ask(1);
-  const auto glance = Answer([&] { glances_.Show(noise); });
+  const auto glance = Answer([&] { snapshots_.Show(noise); });
   ASSERT_TRUE(glance);
   EXPECT_FALSE(glance->picture.empty());
-  EXPECT_LE(glance->picture.size(), Glances::kMostBytes);
+  EXPECT_LE(glance->picture.size(), Snapshots::kMostBytes);
 }
 
-TEST_F(GlancesTest, ACameraThatGivesNothingIsSaid) {
+TEST_F(SnapshotsTest, ACameraThatGivesNothingIsSaid) {
   Ask(1);
   const auto glance = Answer([] {});
   ASSERT_TRUE(glance);
@@ -79,15 +79,15 @@ TEST_F(GlancesTest, ACameraThatGivesNothingIsSaid) {
   EXPECT_THAT(glance->detail, HasSubstr("no picture comes"));
 }
 
-TEST_F(GlancesTest, WhileNobodyLooksNothingIsWantedMadeOrSent) {
+TEST_F(SnapshotsTest, WhileNobodyLooksNothingIsWantedMadeOrSent) {
   Ask(1);
-  GlanceFrame frame{.picture = test::WalkFrame(3)};
-  ASSERT_TRUE(Answer([&] { glances_.Show(frame); }));
+  SnapshotFrame frame{.picture = test::WalkFrame(3)};
+  ASSERT_TRUE(Answer([&] { snapshots_.Show(frame); }));
   int wanted = 0;
   std::size_t sent = 0;
   for (int turn = 0; turn < 100; ++turn) {
     (void)robot_->Take(milliseconds(5));
-    if (glances_.wanted()) ++wanted;
+    if (snapshots_.wanted()) ++wanted;
     sent += desk_->Take(milliseconds(0)).size();
   }
   EXPECT_EQ(wanted, 0);

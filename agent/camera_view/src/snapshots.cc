@@ -1,4 +1,4 @@
-#include "agent/camera_view/glances.h"
+#include "agent/camera_view/snapshots.h"
 
 #include <algorithm>
 #include <chrono>
@@ -13,21 +13,21 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::chrono::hours kGlanceWakeUp{1};  // unless something was handed over
+constexpr std::chrono::hours kSnapshotWakeUp{1};  // unless something was handed over
 constexpr int kBestQuality = 70;
 constexpr int kWorstQuality = 10;
 constexpr int kQualityStep = 10;
 // A picture this small leaves room for a better quality the next time.
-constexpr std::size_t kFewBytes = Glances::kMostBytes * 2 / 3;
+constexpr std::size_t kFewBytes = Snapshots::kMostBytes * 2 / 3;
 constexpr int kNiceness = 10;
 
 constexpr const char* kNoPicture = "no picture comes from its camera";
 
 }  // namespace
 
-class Glances::Visitor : public exchange::RouteExchange {
+class Snapshots::Visitor : public exchange::RouteExchange {
  public:
-  Visitor(Glances& host, std::unique_ptr<exchange::RouteExchange> exchange)
+  Visitor(Snapshots& host, std::unique_ptr<exchange::RouteExchange> exchange)
       : host_(host), exchange_(std::move(exchange)) {}
 
   Result<void> Publish(const exchange::Message& message) override {
@@ -48,26 +48,26 @@ class Glances::Visitor : public exchange::RouteExchange {
   [[nodiscard]] std::uint64_t dropped() const override { return exchange_->dropped(); }
 
  private:
-  Glances& host_;
+  Snapshots& host_;
   std::unique_ptr<exchange::RouteExchange> exchange_;
 };
 
-Glances::Glances(AgentId self)
+Snapshots::Snapshots(AgentId self)
     : desk_(std::move(self)), quality_(kBestQuality), thread_([this] { Paint(); }) {}
 
-Glances::~Glances() {
+Snapshots::~Snapshots() {
   ending_ = true;
   handed_over_.Ring();
   thread_.join();
 }
 
-std::unique_ptr<exchange::RouteExchange> Glances::Through(
+std::unique_ptr<exchange::RouteExchange> Snapshots::Through(
     std::unique_ptr<exchange::RouteExchange> exchange) {
   if (!exchange) return nullptr;
   return std::make_unique<Visitor>(*this, std::move(exchange));
 }
 
-void Glances::ShowIfWanted(RobotDevice& device) {
+void Snapshots::ShowIfWanted(RobotDevice& device) {
   if (!wanted()) return;
   auto seen = device.Look();
   if (seen) {
@@ -77,13 +77,13 @@ void Glances::ShowIfWanted(RobotDevice& device) {
   }
 }
 
-void Glances::HandOver(Item item) {
+void Snapshots::HandOver(Item item) {
   // If the queue is full, the frames before this one will do.
   (void)frames_.TryPut(std::move(item));
   handed_over_.Ring();
 }
 
-void Glances::Serve(exchange::RouteExchange& exchange, Time now) {
+void Snapshots::Serve(exchange::RouteExchange& exchange, Time now) {
   std::optional<exchange::Glance> answer;
   while (auto picture = pictures_.TryGet()) {
     if (auto given = desk_.Give(*std::move(picture), now)) answer = std::move(given);
@@ -97,10 +97,10 @@ void Glances::Serve(exchange::RouteExchange& exchange, Time now) {
   if (desk_.Asks(now)) wanted_ = true;
 }
 
-void Glances::Paint() {
+void Snapshots::Paint() {
   GiveWay(kNiceness);
   while (!ending_) {
-    handed_over_.Wait(kGlanceWakeUp);
+    handed_over_.Wait(kSnapshotWakeUp);
     while (auto item = frames_.TryGet()) {
       // A frame that cannot be drawn gives no picture, and the robot drives on.
       auto painted = Guarded("the thread that draws what the camera sees",
@@ -112,13 +112,13 @@ void Glances::Paint() {
   }
 }
 
-CameraPicture Glances::Painted(const Item& item) {
-  const auto* frame = std::get_if<GlanceFrame>(&item);
+CameraPicture Snapshots::Painted(const Item& item) {
+  const auto* frame = std::get_if<SnapshotFrame>(&item);
   return frame != nullptr ? Encode(*frame) : CameraPicture{.detail = std::get<std::string>(item)};
 }
 
-CameraPicture Glances::Encode(const GlanceFrame& frame) {
-  const image::RgbImage drawn = DrawGlance(frame);
+CameraPicture Snapshots::Encode(const SnapshotFrame& frame) {
+  const image::RgbImage drawn = DrawSnapshot(frame);
   auto jpeg = image::EncodeJpeg(drawn, quality_);
   while (jpeg && jpeg->size() > kMostBytes && quality_ > kWorstQuality) {
     quality_ = std::max(kWorstQuality, quality_ - kQualityStep);
@@ -126,7 +126,7 @@ CameraPicture Glances::Encode(const GlanceFrame& frame) {
   }
   if (!jpeg) return {.detail = kNoPicture};
   if (jpeg->size() < kFewBytes) quality_ = std::min(kBestQuality, quality_ + kQualityStep);
-  return {.jpeg = *std::move(jpeg), .marked = frame.marked(), .detail = GlanceText(frame)};
+  return {.jpeg = *std::move(jpeg), .marked = frame.marked(), .detail = SnapshotText(frame)};
 }
 
 }  // namespace trailcast::agent

@@ -7,8 +7,8 @@
 #include <variant>
 
 #include "agent/device/device.h"
-#include "agent/diagnosis/glance_view.h"
-#include "agent/link/glance_desk.h"
+#include "agent/diagnosis/snapshot_view.h"
+#include "agent/link/snapshot_desk.h"
 #include "services/base/mailbox.h"
 #include "services/exchange/route_exchange.h"
 
@@ -17,15 +17,15 @@ namespace trailcast::agent {
 // Lets people look through the robot's camera. The driving thread hands over a copy of a frame when
 // one is wanted, and never waits. A thread of this object, with a low priority, draws on it and
 // encodes it. The thread that owns the exchange takes requests and answers them.
-class Glances {
+class Snapshots {
  public:
   // A picture is encoded more and more coarsely until it is no larger.
   static constexpr std::size_t kMostBytes = 12U << 10U;
 
-  explicit Glances(AgentId self);
-  ~Glances();
-  Glances(const Glances&) = delete;
-  Glances& operator=(const Glances&) = delete;
+  explicit Snapshots(AgentId self);
+  ~Snapshots();
+  Snapshots(const Snapshots&) = delete;
+  Snapshots& operator=(const Snapshots&) = delete;
 
   // Returns the same exchange, or null. Requests for snapshots are served while messages are taken
   // from it. This object must outlive it.
@@ -34,23 +34,23 @@ class Glances {
 
   // Returns true once for each picture that is wanted. The driving thread calls it.
   [[nodiscard]] bool wanted() { return wanted_.load(std::memory_order_relaxed) && TakeWanted(); }
-  void Show(GlanceFrame frame) { HandOver(std::move(frame)); }
+  void Show(SnapshotFrame frame) { HandOver(std::move(frame)); }
   // Serves a robot that does not drive.
   void ShowIfWanted(RobotDevice& device);
 
  private:
   class Visitor;
-  using Item = std::variant<std::monostate, GlanceFrame, std::string>;
-  using Time = GlanceDesk::Time;
+  using Item = std::variant<std::monostate, SnapshotFrame, std::string>;
+  using Time = SnapshotDesk::Time;
 
   [[nodiscard]] bool TakeWanted() { return wanted_.exchange(false); }
   void HandOver(Item item);
   void Serve(exchange::RouteExchange& exchange, Time now);
   void Paint();
   [[nodiscard]] CameraPicture Painted(const Item& item);
-  [[nodiscard]] CameraPicture Encode(const GlanceFrame& frame);
+  [[nodiscard]] CameraPicture Encode(const SnapshotFrame& frame);
 
-  GlanceDesk desk_;  // for the exchange's thread
+  SnapshotDesk desk_;  // for the exchange's thread
 
   std::atomic<bool> wanted_{false};
   Mailbox<Item> frames_{2};
