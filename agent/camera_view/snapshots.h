@@ -8,7 +8,7 @@
 
 #include "agent/device/device.h"
 #include "agent/diagnosis/snapshot_view.h"
-#include "agent/link/snapshot_desk.h"
+#include "agent/link/snapshot_handler.h"
 #include "services/base/mailbox.h"
 #include "services/exchange/route_exchange.h"
 
@@ -41,7 +41,7 @@ class Snapshots {
  private:
   class Visitor;
   using Item = std::variant<std::monostate, SnapshotFrame, std::string>;
-  using Time = SnapshotDesk::Time;
+  using Time = SnapshotHandler::Time;
 
   [[nodiscard]] bool TakeWanted() { return wanted_.exchange(false); }
   void HandOver(Item item);
@@ -50,7 +50,7 @@ class Snapshots {
   [[nodiscard]] CameraPicture Painted(const Item& item);
   [[nodiscard]] CameraPicture Encode(const SnapshotFrame& frame);
 
-  SnapshotDesk desk_;  // for the exchange's thread
+  SnapshotHandler handler_;  // for the exchange's thread
 
   std::atomic<bool> wanted_{false};
   Mailbox<Item> frames_{2};

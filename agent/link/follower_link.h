@@ -15,7 +15,7 @@
 #include "agent/link/feed.h"
 #include "agent/link/followed_note.h"
 #include "agent/link/neighbours.h"
-#include "agent/link/now_desk.h"
+#include "agent/link/now_handler.h"
 #include "agent/link/place_note.h"
 #include "agent/link/route_wish.h"
 #include "agent/session/replay_session.h"
@@ -44,7 +44,7 @@ struct FollowerLinkOptions {
   // claimed the name in the fleet; operators' commands; and its counts of how it followed. With 0
   // and null, the link has its own.
   std::uint64_t instance = 0;
-  NowDesk* now_desk = nullptr;
+  NowHandler* now_handler = nullptr;
   FollowedNote* followed_note = nullptr;
   // called by the link's thread
   std::function<program::Vitals()> vitals = [] { return program::Vitals{}; };
@@ -156,9 +156,9 @@ class FollowerLink {
   std::optional<NotedPlace> place_;  // the last one of which the robot was sure
   std::optional<Time> noted_;        // when that was noted
   Neighbours neighbours_;
-  std::vector<Neighbour> told_;      // what the control loop knows
-  std::optional<NowDesk> own_desk_;  // unless it was given one
-  NowDesk& now_desk_;
+  std::vector<Neighbour> told_;            // what the control loop knows
+  std::optional<NowHandler> own_handler_;  // unless it was given one
+  NowHandler& now_handler_;
   FollowedNote own_note_;  // likewise
   FollowedNote& followed_note_;
   Hold hold_told_;  // what the control loop knows

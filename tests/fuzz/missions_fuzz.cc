@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "agent/link/mission_desk.h"
+#include "agent/link/mission_handler.h"
 #include "services/exchange/bounds.h"
 #include "services/mission/orders.h"
 #include "tests/fuzz/fuzz.h"
@@ -33,13 +33,13 @@ void ReadKept(const std::string& text) {
   const fs::path file =
       fs::temp_directory_path() / ("trailcast-fuzz-missions-" + std::to_string(getpid()));
   std::ofstream(file, std::ios::binary) << text;
-  trailcast::agent::MissionDesk desk(trailcast::AgentId("robot1"), file);
-  if (desk.Load()) {
-    if (const auto& current = desk.current()) {
+  trailcast::agent::MissionHandler handler(trailcast::AgentId("robot1"), file);
+  if (handler.Load()) {
+    if (const auto& current = handler.current()) {
       Require(current->task < current->tasks.size(), "there is something to be done");
-      desk.Tell(trailcast::mission::State::kArrived);
+      handler.Tell(trailcast::mission::State::kArrived);
     }
-    for (const auto& message : desk.Due({}, true)) {
+    for (const auto& message : handler.Due({}, true)) {
       Require(trailcast::exchange::CheckBounds(message).has_value(), "what it says is in bounds");
     }
   }

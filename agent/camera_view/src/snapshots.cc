@@ -38,7 +38,7 @@ class Snapshots::Visitor : public exchange::RouteExchange {
   std::vector<exchange::Message> Take(std::chrono::milliseconds max_wait) override {
     auto messages = exchange_->Take(max_wait);
     const auto now = steady_clock::now();
-    for (const exchange::Message& message : messages) host_.desk_.Handle(message, now);
+    for (const exchange::Message& message : messages) host_.handler_.Handle(message, now);
     host_.Serve(*exchange_, now);
     return messages;
   }
@@ -53,7 +53,7 @@ class Snapshots::Visitor : public exchange::RouteExchange {
 };
 
 Snapshots::Snapshots(AgentId self)
-    : desk_(std::move(self)), quality_(kBestQuality), thread_([this] { Paint(); }) {}
+    : handler_(std::move(self)), quality_(kBestQuality), thread_([this] { Paint(); }) {}
 
 Snapshots::~Snapshots() {
   ending_ = true;
@@ -86,15 +86,15 @@ void Snapshots::HandOver(Item item) {
 void Snapshots::Serve(exchange::RouteExchange& exchange, Time now) {
   std::optional<exchange::Glance> answer;
   while (auto picture = pictures_.TryGet()) {
-    if (auto given = desk_.Give(*std::move(picture), now)) answer = std::move(given);
+    if (auto given = handler_.Give(*std::move(picture), now)) answer = std::move(given);
   }
-  if (!answer && desk_.AskedInVain(now)) {
+  if (!answer && handler_.AskedInVain(now)) {
     wanted_ = false;
-    answer = desk_.Give({.detail = kNoPicture}, now);
+    answer = handler_.Give({.detail = kNoPicture}, now);
   }
   // An answer that cannot be sent is asked for again.
   if (answer) (void)exchange.Publish(*answer);
-  if (desk_.Asks(now)) wanted_ = true;
+  if (handler_.Asks(now)) wanted_ = true;
 }
 
 void Snapshots::Paint() {

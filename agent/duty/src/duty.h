@@ -15,8 +15,8 @@
 #include "agent/follow/next_path.h"
 #include "agent/link/followed_note.h"
 #include "agent/link/lasting_exchange.h"
-#include "agent/link/mission_desk.h"
-#include "agent/link/now_desk.h"
+#include "agent/link/mission_handler.h"
+#include "agent/link/now_handler.h"
 #include "agent/teach/teleoperation.h"
 #include "services/base/mailbox.h"
 #include "services/program/presence.h"
@@ -48,7 +48,7 @@ class Duty {
   void TellNews();
   void TellState(State state, const std::string& why,
                  mission::WaitsFor waits_for = mission::WaitsFor::kNothing);
-  [[nodiscard]] bool Held() const { return now_desk_.hold().kind != Hold::Kind::kNone; }
+  [[nodiscard]] bool Held() const { return now_handler_.hold().kind != Hold::Kind::kNone; }
 
   void Work();
   void WaitOn(const mission::Task& task);
@@ -81,9 +81,9 @@ class Duty {
   const OnDutyOptions& options_;
   Snapshots snapshots_;
   LastingExchange exchange_;
-  NowDesk now_desk_;
+  NowHandler now_handler_;
   FollowedNote followed_note_;
-  MissionDesk desk_;
+  MissionHandler mission_handler_;
   std::unique_ptr<exchange::RouteExchange> own_visit_;
   program::Presence presence_;
   std::uint64_t instance_ = 0;  // of this process, once the name is claimed

@@ -36,15 +36,15 @@ constexpr const char* kWaitsForWord = "waits before a narrow place until a serve
 }  // namespace
 
 void Duty::Work() {
-  const mission::Task task = desk_.current()->tasks[desk_.current()->task];
+  const mission::Task task = mission_handler_.current()->tasks[mission_handler_.current()->task];
   // Anything else that the robot does ends these two.
   auto begun = std::move(next_);
   auto turning = std::move(turning_);
-  if (now_desk_.hold().cancelled) {
+  if (now_handler_.hold().cancelled) {
     End(State::kCancelled, "cancelled by an operator");
   } else if (Held()) {
     if (told_until_) told_until_ = steady_clock::now() + kToldWithin;
-    TellState(State::kPaused, now_desk_.hold().text);
+    TellState(State::kPaused, now_handler_.hold().text);
   } else if (relocalisation_.looks()) {
     Relocalise();
   } else if (WaitsForWay()) {
@@ -89,7 +89,7 @@ void Duty::Turn(const mission::Task& task, std::unique_ptr<Turning> turning) {
 }
 
 bool Duty::WaitsForWay() const {
-  const auto& current = desk_.current();
+  const auto& current = mission_handler_.current();
   if (!current) return false;
   const auto kind = current->kind();
   return !missed_.empty() || kind == mission::Task::Kind::kWaitWay ||
@@ -97,7 +97,7 @@ bool Duty::WaitsForWay() const {
 }
 
 void Duty::WaitForWay() {
-  const MissionDesk::Current& current = *desk_.current();
+  const MissionHandler::Current& current = *mission_handler_.current();
   if (told_until_ && steady_clock::now() > *told_until_) {
     return End(State::kFailed, fmt::format("{}; {}, and no server tells it another way within {} s",
                                            relocalisation_.Lost(), missed_, kToldWithin.count()));
@@ -127,10 +127,10 @@ void Duty::GoAlong() {
     turned_off_ = following_;
     return;
   }
-  const auto& tasks = desk_.current()->tasks;
+  const auto& tasks = mission_handler_.current()->tasks;
   const auto along_m = place_ ? std::optional(place_->along_m) : std::nullopt;
   const Rerouting other = FindOnPath(tasks, driven_, along_m);
-  desk_.GoOnAt(other.task);
+  mission_handler_.GoOnAt(other.task);
   const mission::Task& task = tasks[other.task];
   if (other.kind == Rerouting::Kind::kGoesOn) {
     driven_ = task;
@@ -141,7 +141,7 @@ void Duty::GoAlong() {
     missed_ = fmt::format("it was told at {:.1f} m to leave {} at {:.1f} m", *along_m,
                           task.route.route, task.to_m);
   } else if (along_m && task.route.route == driven_.route.route) {
-    desk_.BeginAt(*along_m);
+    mission_handler_.BeginAt(*along_m);
   }
   turned_off_ = true;
 }
@@ -150,7 +150,7 @@ FollowerOptions Duty::FollowerFor(const mission::Task& task) {
   FollowerOptions follower = options_.follower(task);
   follower.how.backwards = task.backwards;
   follower.link.instance = instance_;
-  follower.link.now_desk = &now_desk_;
+  follower.link.now_handler = &now_handler_;
   follower.link.followed_note = &followed_note_;
   follower.link.vitals = options_.vitals;
   follower.link.stop = [this] { return options_.stop() || turned_off_; };
@@ -182,7 +182,7 @@ std::optional<Result<ReplayOutcome>> Duty::RunFollower(const FollowerOptions& fo
 
 // Returns the route that a robot on its way to a place drives after this one.
 std::optional<mission::Task> Duty::TaskAfter() const {
-  const auto& current = desk_.current();
+  const auto& current = mission_handler_.current();
   if (!current || current->going.to.empty()) return std::nullopt;
   const std::size_t after = current->task + 1;
   if (after >= current->tasks.size()) return std::nullopt;
@@ -212,7 +212,7 @@ FollowerOptions::Next Duty::PrepareNext(const std::optional<OwnLens>& lens) {
 }
 
 void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
-  const MissionDesk::Current& current = *desk_.current();
+  const MissionHandler::Current& current = *mission_handler_.current();
   if (begun && mission::ToText(task) != made_ready_) begun.reset();
   FollowerOptions follower = FollowerFor(task);
   follower.link.from_start = !current.begun;
@@ -242,7 +242,7 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
   const double on_m = place_ ? end_m_ - place_->along_m : 0.0;
   const bool goes_on =
       arrived && end_m_ != task.to_m && (task.backwards ? -on_m : on_m) > kOnPath_m;
-  if (goes_on) return desk_.BeginAt(place_->along_m);
+  if (goes_on) return mission_handler_.BeginAt(place_->along_m);
   if (arrived && (*outcome)->visit) {
     visited_.push_back({*(*outcome)->followed, *std::move((*outcome)->visit)});
   }
@@ -254,11 +254,11 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
 // others.
 bool Duty::BeginsToRelocalise(const Result<ReplayOutcome>& outcome) {
   if (!outcome || outcome->end != RunEnd::kLost) return false;
-  if (desk_.current()->going.to.empty() || !relocalisation_.MayBegin()) return false;
+  if (mission_handler_.current()->going.to.empty() || !relocalisation_.MayBegin()) return false;
   // It hears the network while it asks about its view, and may be sent another path meanwhile, so
   // the order is read afterwards.
   const std::vector<std::string> seen = RoutesInView();
-  const MissionDesk::Current& current = *desk_.current();
+  const MissionHandler::Current& current = *mission_handler_.current();
   relocalisation_.Begin(current.tasks, current.task,
                         fmt::format("{}: {}", outcome->state, outcome->reason), seen);
   spdlog::warn("{}", relocalisation_.Lost());
@@ -353,12 +353,12 @@ void Duty::Teach(const mission::Task& task) {
   Teleoperation teleoperation;
   was_under_way_ = false;
   on_route_ = task.route.route;
-  now_desk_.Teaches(true);
+  now_handler_.Teaches(true);
   teleoperation_ = &teleoperation;
   const auto taught =
       TeachByHand(device_, ScoutFor(task), teleoperation, *std::move(store), exchange_.Visit());
   teleoperation_ = nullptr;
-  now_desk_.Teaches(false);
+  now_handler_.Teaches(false);
   stands_until_ = {};
   undelivered_ = !taught || !taught->delivered;
   deliver_at_ = {};
@@ -425,23 +425,23 @@ void Duty::Done(const std::string& what) {
   relocalisation_.Reset();
   wait_until_.reset();
   told_.reset();
-  desk_.NoteDone();
-  if (const auto& current = desk_.current(); current->task >= current->tasks.size()) {
+  mission_handler_.NoteDone();
+  if (const auto& current = mission_handler_.current(); current->task >= current->tasks.size()) {
     End(State::kArrived, what);
   }
 }
 
 void Duty::End(State state, const std::string& why) {
-  last_ = fmt::format("mission {}: {}{}{}", desk_.current()->mission.id, mission::ToString(state),
-                      why.empty() ? "" : ": ", why);
-  desk_.Tell(state, why);
+  last_ = fmt::format("mission {}: {}{}{}", mission_handler_.current()->mission.id,
+                      mission::ToString(state), why.empty() ? "" : ": ", why);
+  mission_handler_.Tell(state, why);
   told_.reset();
   relocalisation_.Reset();
   missed_.clear();
   told_until_.reset();
   wait_until_.reset();
   turned_rad_ = 0.0;
-  now_desk_.ForgetCancelled();
+  now_handler_.ForgetCancelled();
 }
 
 }  // namespace trailcast::agent

@@ -36,9 +36,9 @@ Duty::Duty(RobotDevice& device, const OnDutyOptions& options,
       options_(options),
       snapshots_(options.agent),
       exchange_(snapshots_.Through(std::move(exchange))),
-      now_desk_(options.agent, options.stop_file),
+      now_handler_(options.agent, options.stop_file),
       followed_note_(options.agent),
-      desk_(options.agent, options.missions_file),
+      mission_handler_(options.agent, options.missions_file),
       own_visit_(exchange_.Visit()),
       presence_(*own_visit_, FreeStatus(options.agent)) {
   presence_.FeelBy(options.vitals);
@@ -48,17 +48,17 @@ Duty::Duty(RobotDevice& device, const OnDutyOptions& options,
 }
 
 void Duty::Hear(const exchange::Message& message) {
-  desk_.Handle(message);
-  if (desk_.TakeAmended()) Reroute();
+  mission_handler_.Handle(message);
+  if (mission_handler_.TakeAmended()) Reroute();
   if (claimed_) presence_.Handle(message);
   if (question_) question_->Hear(message);
   if (following_) return;
   const bool teaches = teleoperation_ != nullptr;
-  now_desk_.Works(desk_.current().has_value());
-  now_desk_.MayBeSent(desk_.has_keeper());
-  now_desk_.Handle(message, teaches ? on_route_ : "", NowUnixMs());
+  now_handler_.Works(mission_handler_.current().has_value());
+  now_handler_.MayBeSent(mission_handler_.has_keeper());
+  now_handler_.Handle(message, teaches ? on_route_ : "", NowUnixMs());
   if (!teaches) return;
-  teleoperation_->Tell(now_desk_.hold());
+  teleoperation_->Tell(now_handler_.hold());
   const auto* drive = std::get_if<exchange::DriveCommand>(&message);
   if (drive != nullptr && drive->agent == options_.agent) {
     teleoperation_->Hear(*drive, steady_clock::now());
@@ -69,22 +69,22 @@ void Duty::Say(exchange::RouteExchange& to) {
   if (!claimed_) return;
   const auto now = steady_clock::now();
   // Anything that cannot be sent is repeated, or asked for again.
-  (void)exchange::PublishAll(to, desk_.Due(now, presence_.server().has_value()));
+  (void)exchange::PublishAll(to, mission_handler_.Due(now, presence_.server().has_value()));
   TellNews();
   if (following_) return;
-  (void)exchange::PublishAll(to, now_desk_.TakeAnswers());
+  (void)exchange::PublishAll(to, now_handler_.TakeAnswers());
   // This covers a robot that heard no server while it followed.
   if (presence_.server()) followed_note_.TellIfDue(to, now);
-  if (teleoperation_ != nullptr) return teleoperation_->Tell(now_desk_.hold());
+  if (teleoperation_ != nullptr) return teleoperation_->Tell(now_handler_.hold());
   if (delivering_) return;
   ShowFree();
   presence_.Tick(now);
 }
 
 void Duty::TellNews() {
-  for (const std::string& line : desk_.TakeNews()) spdlog::info("{}", line);
+  for (const std::string& line : mission_handler_.TakeNews()) spdlog::info("{}", line);
   if (following_) return;
-  for (const std::string& line : now_desk_.TakeNews()) spdlog::warn("{}", line);
+  for (const std::string& line : now_handler_.TakeNews()) spdlog::warn("{}", line);
 }
 
 void Duty::ShowFree() {
@@ -108,9 +108,9 @@ void Duty::ShowFree() {
 
 // Every status tells how operators hold the robot.
 void Duty::AddDuty(exchange::AgentStatus& status) const {
-  status.hold = now_desk_.shown_hold();
+  status.hold = now_handler_.shown_hold();
   status.on_duty = true;
-  if (Held()) status.detail = now_desk_.hold().text;
+  if (Held()) status.detail = now_handler_.hold().text;
 }
 
 // No frames are requested from an idle robot, so nobody else notices.
@@ -135,17 +135,17 @@ void Duty::TellState(State state, const std::string& why, mission::WaitsFor wait
   told_ = state;
   told_waits_for_ = waits_for;
   told_why_ = why;
-  desk_.Tell(state, why, waits_for);
+  mission_handler_.Tell(state, why, waits_for);
 }
 
 // The follower's or scout's status is the mission's state.
 void Duty::SawStatus(const exchange::AgentStatus& status) {
   const bool at_work = following_ || teleoperation_ != nullptr;
-  if (!at_work || !desk_.current()) return;
+  if (!at_work || !mission_handler_.current()) return;
   on_route_ = status.route;
   place_ = status.place;
   if (Held()) {
-    TellState(State::kPaused, now_desk_.hold().text);
+    TellState(State::kPaused, now_handler_.hold().text);
   } else if (relocalisation_.looks()) {
     TellState(State::kFetching,
               fmt::format("{}; looks whether it is on {}", relocalisation_.Lost(), on_route_));
@@ -161,8 +161,8 @@ void Duty::SawStatus(const exchange::AgentStatus& status) {
 }
 
 Result<void> Duty::Run() {
-  now_desk_.Load();
-  if (auto loaded = desk_.Load(); !loaded) return loaded;
+  now_handler_.Load();
+  if (auto loaded = mission_handler_.Load(); !loaded) return loaded;
   // The exchange hears what comes meanwhile.
   if (auto claimed = presence_.Claim([](const exchange::Message&) {}, options_.stop); !claimed) {
     return claimed;
@@ -170,14 +170,14 @@ Result<void> Duty::Run() {
   claimed_ = true;
   instance_ = presence_.status().instance;
   FindUndelivered();
-  if (const auto& current = desk_.current();
+  if (const auto& current = mission_handler_.current();
       current && current->begun && current->kind() == mission::Task::Kind::kTeach) {
     End(State::kFailed,
         "its agent has started again in the middle of it: what was taught is kept, cut off, and "
         "no robot follows it unless an operator activates it");
   } else if (current && current->begun && !current->mission.goes_on) {
-    now_desk_.Pause(fmt::format("its agent has started again in the middle of mission {}",
-                                current->mission.id));
+    now_handler_.Pause(fmt::format("its agent has started again in the middle of mission {}",
+                                   current->mission.id));
   }
   spdlog::info("available as '{}'", options_.agent.value());
   while (!options_.stop()) {
@@ -186,11 +186,11 @@ Result<void> Duty::Run() {
     if (!drives) RefreshVisited();
     snapshots_.ShowIfWanted(device_);
     NoteAilment(steady_clock::now());
-    if (desk_.current()) {
+    if (mission_handler_.current()) {
       Work();
     } else {
       next_.reset();
-      now_desk_.ForgetCancelled();
+      now_handler_.ForgetCancelled();
       if (undelivered_ && presence_.server() && steady_clock::now() >= deliver_at_) Deliver();
     }
   }

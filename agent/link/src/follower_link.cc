@@ -32,9 +32,9 @@ exchange::AgentStatus FollowerStatus(const FollowerLinkOptions& options) {
   return status;
 }
 
-NowDesk& DeskOf(const FollowerLinkOptions& options, std::optional<NowDesk>& own) {
-  return options.now_desk != nullptr ? *options.now_desk
-                                     : own.emplace(options.agent, options.stop_file);
+NowHandler& HandlerOf(const FollowerLinkOptions& options, std::optional<NowHandler>& own) {
+  return options.now_handler != nullptr ? *options.now_handler
+                                        : own.emplace(options.agent, options.stop_file);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::R
           [this](const route::RouteKey& key) { return store_->FindRoute(key); }),
       place_note_(options_.place_file),
       neighbours_(options_.agent),
-      now_desk_(DeskOf(options_, own_desk_)),
+      now_handler_(HandlerOf(options_, own_handler_)),
       own_note_(options_.agent),
       followed_note_(options_.followed_note != nullptr ? *options_.followed_note : own_note_) {
   followed_note_.Begin();
@@ -65,11 +65,11 @@ FollowerLink::FollowerLink(FollowerLinkOptions options, std::unique_ptr<store::R
 FollowerLink::~FollowerLink() { Finish(); }
 
 Result<void> FollowerLink::Start() {
-  if (own_desk_) own_desk_->Load();
-  if (!presence_ && now_desk_.hold().kind == Hold::Kind::kStopped) {
+  if (own_handler_) own_handler_->Load();
+  if (!presence_ && now_handler_.hold().kind == Hold::Kind::kStopped) {
     return Fail(ErrorCode::kConflict,
                 "{}; give --server, so that an operator can release it ('trailcast release {}')",
-                now_desk_.hold().text, options_.agent.value());
+                now_handler_.hold().text, options_.agent.value());
   }
   if (presence_ && options_.instance == 0) {
     const auto handle = [this](const exchange::Message& message) {

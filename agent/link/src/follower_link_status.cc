@@ -96,27 +96,27 @@ void FollowerLink::ShowStatus() {
     status.place = {route_->key, *latest_.along_m, offset.left_m, offset.left_sigma_m};
   }
   if (status.mode == exchange::AgentMode::kReplaying) status.following = FollowingOf(latest_);
-  status.hold = now_desk_.shown_hold();
-  status.on_duty = options_.now_desk != nullptr;
+  status.hold = now_handler_.shown_hold();
+  status.on_duty = options_.now_handler != nullptr;
   presence_->Set(std::move(status));
 }
 
 void FollowerLink::HearOperators(const exchange::Message& message) {
   if (!options_.hears_operators) return;
-  now_desk_.Handle(message, route_ ? route_->name : options_.route, NowUnixMs());
-  for (const std::string& line : now_desk_.TakeNews()) spdlog::warn("{}", line);
+  now_handler_.Handle(message, route_ ? route_->name : options_.route, NowUnixMs());
+  for (const std::string& line : now_handler_.TakeNews()) spdlog::warn("{}", line);
 }
 
 void FollowerLink::AnswerOperators() {
   // A command whose answer is not sent now comes again.
-  (void)exchange::PublishAll(*exchange_, now_desk_.TakeAnswers());
+  (void)exchange::PublishAll(*exchange_, now_handler_.TakeAnswers());
 }
 
 bool FollowerLink::TellHold() {
-  if (now_desk_.hold() == hold_told_) return true;
-  Hold hold = now_desk_.hold();
+  if (now_handler_.hold() == hold_told_) return true;
+  Hold hold = now_handler_.hold();
   if (!told_hold_.TryPut(std::move(hold))) return false;
-  hold_told_ = now_desk_.hold();
+  hold_told_ = now_handler_.hold();
   fed_.Ring();
   return true;
 }

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "agent/duty/src/rerouting.h"
-#include "agent/link/mission_desk.h"
+#include "agent/link/mission_handler.h"
 #include "route_server/network/lane_keeper.h"
 #include "route_server/network/replanning.h"
 #include "services/fleet/network_client.h"
@@ -34,10 +34,10 @@ constexpr double kInBay_m = 8.0;
 
 // One in the world, as OnDuty drives it.
 struct Walker {
-  explicit Walker(std::string name) : agent(std::move(name)), desk(agent, {}) {}
+  explicit Walker(std::string name) : agent(std::move(name)), handler(agent, {}) {}
 
   AgentId agent;
-  MissionDesk desk;
+  MissionHandler handler;
   std::size_t route = 0;
   double along_m = 0.0;
   double speed_mps = 0.5;
@@ -213,7 +213,7 @@ class LanesModel {
       const mission::Mission mission{
           .agent = walker->agent, .id = "m-" + name, .client = AgentId("desk"), .orders = *orders};
       missions_->Handle(mission, now_, 1000);
-      walker->desk.Handle(mission);
+      walker->handler.Handle(mission);
       walkers_.push_back(std::move(walker));
       return;
     }
@@ -261,16 +261,16 @@ class LanesModel {
   void Tell(Walker& walker, State state, WaitsFor waits_for = WaitsFor::kNothing) {
     if (walker.told == std::pair(state, waits_for)) return;
     walker.told.emplace(state, waits_for);
-    walker.desk.Tell(state, "xyzzy", waits_for);
+    walker.handler.Tell(state, "xyzzy", waits_for);
   }
   void Reroute(Walker& walker) {
     walker.missed = false;
     walker.told.reset();
     if (!walker.driven) return;
-    const auto& tasks = walker.desk.current()->tasks;
+    const auto& tasks = walker.handler.current()->tasks;
     const Rerouting other = FindOnPath(
         tasks, *walker.driven, walker.placed ? std::optional(walker.along_m) : std::nullopt);
-    walker.desk.GoOnAt(other.task);
+    walker.handler.GoOnAt(other.task);
     if (other.kind == Rerouting::Kind::kGoesOn) {
       walker.driven = tasks[other.task];
       return;
@@ -278,18 +278,18 @@ class LanesModel {
     walker.missed = other.kind == Rerouting::Kind::kMissed;
     if (!walker.missed && walker.placed && tasks[other.task].kind == Task::Kind::kFollow &&
         tasks[other.task].route.route == walker.driven->route.route) {
-      walker.desk.BeginAt(walker.along_m);
+      walker.handler.BeginAt(walker.along_m);
     }
     walker.driven.reset();
   }
   void Step(Walker& walker) {
     while (!walker.in.empty() && walker.in.front().first <= now_) {
-      walker.desk.Handle(walker.in.front().second);
+      walker.handler.Handle(walker.in.front().second);
       walker.in.pop_front();
-      if (walker.desk.TakeAmended()) Reroute(walker);
+      if (walker.handler.TakeAmended()) Reroute(walker);
     }
-    if (walker.desk.current()) Work(walker);
-    for (exchange::Message& message : walker.desk.Due(now_, true)) {
+    if (walker.handler.current()) Work(walker);
+    for (exchange::Message& message : walker.handler.Due(now_, true)) {
       Pass(walker.out, std::move(message));
     }
     if (now_ < walker.says_at) return;
@@ -299,14 +299,14 @@ class LanesModel {
     status.instance = 1;
     status.role = exchange::AgentRole::kFollower;
     status.mode = walker.driven ? exchange::AgentMode::kReplaying : exchange::AgentMode::kWaiting;
-    if (walker.placed && walker.desk.current()) {
+    if (walker.placed && walker.handler.current()) {
       status.place = {Key(walker.route), walker.along_m};
       status.speed_mps = walker.driven ? walker.speed_mps : 0.0;
     }
     Pass(walker.out, status);
   }
   void Work(Walker& walker) {
-    const auto& current = *walker.desk.current();
+    const auto& current = *walker.handler.current();
     const Task& task = current.tasks[current.task];
     if (walker.missed || task.kind != Task::Kind::kFollow) {
       walker.driven.reset();
@@ -342,9 +342,9 @@ class LanesModel {
     if (sign * (walker.driven->to_m - walker.along_m) > 1e-6) return;
     walker.driven.reset();
     walker.told.reset();
-    walker.desk.NoteDone();
-    if (walker.desk.current()->task >= walker.desk.current()->tasks.size()) {
-      walker.desk.Tell(State::kArrived);
+    walker.handler.NoteDone();
+    if (walker.handler.current()->task >= walker.handler.current()->tasks.size()) {
+      walker.handler.Tell(State::kArrived);
       walker.arrived = true;
     }
   }
@@ -370,7 +370,7 @@ class LanesModel {
   std::string Told() const {
     std::string told;
     for (const auto& walker : walkers_) {
-      const auto& current = walker->desk.current();
+      const auto& current = walker->handler.current();
       told += fmt::format("\n{} at {}@{:.2f}{}: {}", walker->agent.value(), Name(walker->route),
                           walker->along_m, walker->missed ? " missed" : "",
                           current ? current->mission.orders : "arrived");

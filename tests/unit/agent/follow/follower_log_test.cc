@@ -31,7 +31,7 @@ class FollowerLogTest : public testing::Test {
     FollowerOptions options = swarm_.FollowerNamed("robot");
     options.diagnosis = diagnosis_;
     options.diagnosis.log = folder_ / "run.mcap";
-    options.link.now_desk = hold_;
+    options.link.now_handler = hold_;
     options.how.session.intake.roll_deg = roll_deg_;
     const auto outcome = swarm_.Replay(device, options, false);
     EXPECT_TRUE(outcome && outcome->diagnosed);
@@ -40,7 +40,7 @@ class FollowerLogTest : public testing::Test {
     EXPECT_TRUE(log) << log.error().message;
     return *log;
   }
-  NowDesk* hold_ = nullptr;
+  NowHandler* hold_ = nullptr;
   double roll_deg_ = 0.0;
   std::size_t frames_ = 0;
   DiagnosisOptions diagnosis_{.patient = true};  // fewer frames may wait than it has
@@ -149,9 +149,9 @@ class HangingDevice : public WalkDevice {
 };
 
 TEST_F(FollowerLogTest, OfARobotThatIsHeldItDrawsTheFramesThatNobodyLooksAt) {
-  NowDesk desk(AgentId("robot"), {});
-  desk.Pause("somebody walks here");
-  hold_ = &desk;
+  NowHandler handler(AgentId("robot"), {});
+  handler.Pause("somebody walks here");
+  hold_ = &handler;
   roll_deg_ = 180.0;
   diagnosis_.view = folder_ / "view";
   HangingDevice device(80);

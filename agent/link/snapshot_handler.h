@@ -24,7 +24,7 @@ struct CameraPicture {
 // Manages requests for snapshots from this robot's camera. Each request gets one picture, made for
 // it, and the oldest request comes first. There are at most five pictures a second in all, so that
 // viewers take only their share of the radio. It has no I/O and no clock of its own.
-class SnapshotDesk {
+class SnapshotHandler {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::milliseconds kEvery{200};
@@ -33,7 +33,7 @@ class SnapshotDesk {
   static constexpr std::chrono::milliseconds kAskedFor{1000};
   static constexpr std::chrono::milliseconds kPatience{700};
 
-  explicit SnapshotDesk(AgentId self) : self_(std::move(self)) {}
+  explicit SnapshotHandler(AgentId self) : self_(std::move(self)) {}
 
   void Handle(const exchange::Message& message, Time now);
   // Returns true once for each picture that is to be made now.

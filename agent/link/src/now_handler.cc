@@ -1,4 +1,4 @@
-#include "agent/link/now_desk.h"
+#include "agent/link/now_handler.h"
 
 #include <variant>
 
@@ -8,7 +8,7 @@
 
 namespace trailcast::agent {
 
-bool NowDesk::IsMeant(const exchange::NowCommand& command, const std::string& route) const {
+bool NowHandler::IsMeant(const exchange::NowCommand& command, const std::string& route) const {
   switch (command.whom) {
     case exchange::NowWhom::kRobot:
       return command.name == self_.value();
@@ -20,7 +20,7 @@ bool NowDesk::IsMeant(const exchange::NowCommand& command, const std::string& ro
   return false;
 }
 
-exchange::AgentHold NowDesk::shown_hold() const {
+exchange::AgentHold NowHandler::shown_hold() const {
   switch (hold().kind) {
     case Hold::Kind::kNone:
       return exchange::AgentHold::kNone;
@@ -32,8 +32,8 @@ exchange::AgentHold NowDesk::shown_hold() const {
   return exchange::AgentHold::kStopped;
 }
 
-void NowDesk::Handle(const exchange::Message& message, const std::string& route,
-                     std::int64_t unix_ms) {
+void NowHandler::Handle(const exchange::Message& message, const std::string& route,
+                        std::int64_t unix_ms) {
   const auto* command = std::get_if<exchange::NowCommand>(&message);
   if (command == nullptr || !IsMeant(*command, route)) return;
   exchange::NowAnswer& answer = given_.Touch({command->client, command->number});

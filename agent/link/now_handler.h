@@ -15,12 +15,12 @@ namespace trailcast::agent {
 
 // Handles operators' immediate commands to this robot. It obeys each command once, however often it
 // comes, and answers it each time. It has no clock of its own.
-class NowDesk {
+class NowHandler {
  public:
   // Strangers can make up commands, so no more are remembered.
   static constexpr std::size_t kMostCommands = 1024;
 
-  NowDesk(AgentId self, std::filesystem::path stop_file)
+  NowHandler(AgentId self, std::filesystem::path stop_file)
       : self_(std::move(self)), hold_(std::move(stop_file)) {}
 
   // Loads a stop that an earlier run has left.

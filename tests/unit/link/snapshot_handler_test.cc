@@ -1,4 +1,4 @@
-#include "agent/link/snapshot_desk.h"
+#include "agent/link/snapshot_handler.h"
 
 #include <gtest/gtest.h>
 
@@ -10,29 +10,29 @@ namespace {
 using std::chrono::milliseconds;
 
 // These are about robot1, at a time that passes when the test says so.
-class SnapshotDeskTest : public testing::Test {
+class SnapshotHandlerTest : public testing::Test {
  protected:
   void Ask(const std::string& client, std::uint64_t request, const std::string& robot = "robot1") {
-    desk_.Handle(
+    handler_.Handle(
         exchange::GlanceRequest{
             .agent = AgentId(robot), .client = AgentId(client), .request = request},
         now_);
   }
   // Returns who gets a picture that is made now, or an empty text for nobody.
   std::string Served() {
-    if (!desk_.Asks(now_)) return "";
-    const auto given = desk_.Give({.jpeg = {1, 2, 3}}, now_);
+    if (!handler_.Asks(now_)) return "";
+    const auto given = handler_.Give({.jpeg = {1, 2, 3}}, now_);
     EXPECT_TRUE(given);
     EXPECT_EQ(given->agent, AgentId("robot1"));
     EXPECT_EQ(given->picture.size(), 3U);
     return given->client.value() + std::to_string(given->request);
   }
 
-  SnapshotDesk::Time now_{};
-  SnapshotDesk desk_{AgentId("robot1")};
+  SnapshotHandler::Time now_{};
+  SnapshotHandler handler_{AgentId("robot1")};
 };
 
-TEST_F(SnapshotDeskTest, MakesOnePictureForEachRequestAndNoneOtherwise) {
+TEST_F(SnapshotHandlerTest, MakesOnePictureForEachRequestAndNoneOtherwise) {
   EXPECT_EQ(Served(), "");
   Ask("desk", 7);
   EXPECT_EQ(Served(), "desk7");
@@ -42,7 +42,7 @@ TEST_F(SnapshotDeskTest, MakesOnePictureForEachRequestAndNoneOtherwise) {
   EXPECT_EQ(Served(), "") << "another robot is meant";
 }
 
-TEST_F(SnapshotDeskTest, GivesFiveASecondInAllHoweverManyAskHoweverOften) {
+TEST_F(SnapshotHandlerTest, GivesFiveASecondInAllHoweverManyAskHoweverOften) {
   int given = 0;
   for (int ms = 0; ms < 10'000; ms += 10) {
     now_ += milliseconds(10);
@@ -54,19 +54,19 @@ TEST_F(SnapshotDeskTest, GivesFiveASecondInAllHoweverManyAskHoweverOften) {
   EXPECT_EQ(given, 50);
 }
 
-TEST_F(SnapshotDeskTest, ServesWhoHasWaitedLongestWithTheNewestRequest) {
+TEST_F(SnapshotHandlerTest, ServesWhoHasWaitedLongestWithTheNewestRequest) {
   Ask("a", 1);
   Ask("b", 1);
   Ask("a", 2);
   EXPECT_EQ(Served(), "a2");
   Ask("a", 3);
-  now_ += SnapshotDesk::kEvery;
+  now_ += SnapshotHandler::kEvery;
   EXPECT_EQ(Served(), "b1");
-  now_ += SnapshotDesk::kEvery;
+  now_ += SnapshotHandler::kEvery;
   EXPECT_EQ(Served(), "a3");
 }
 
-TEST_F(SnapshotDeskTest, MoreThanEightThatWaitAreNotHeard) {
+TEST_F(SnapshotHandlerTest, MoreThanEightThatWaitAreNotHeard) {
   std::string waiting = "abcdefgh";
   std::string served;
   while (served.size() < 8) {
@@ -77,33 +77,33 @@ TEST_F(SnapshotDeskTest, MoreThanEightThatWaitAreNotHeard) {
     ASSERT_FALSE(client.empty());
     served += client[0];
     std::erase(waiting, client[0]);
-    now_ += SnapshotDesk::kEvery;
+    now_ += SnapshotHandler::kEvery;
   }
   EXPECT_EQ(served, "abcdefgh");
   EXPECT_EQ(Served(), "");
 }
 
-TEST_F(SnapshotDeskTest, SaysWhyBeforeWhoAsksGivesUp) {
+TEST_F(SnapshotHandlerTest, SaysWhyBeforeWhoAsksGivesUp) {
   Ask("desk", 7);
-  ASSERT_TRUE(desk_.Asks(now_));
-  EXPECT_FALSE(desk_.Asks(now_)) << "one at a time";
-  now_ += SnapshotDesk::kPatience;
-  EXPECT_FALSE(desk_.AskedInVain(now_));
+  ASSERT_TRUE(handler_.Asks(now_));
+  EXPECT_FALSE(handler_.Asks(now_)) << "one at a time";
+  now_ += SnapshotHandler::kPatience;
+  EXPECT_FALSE(handler_.AskedInVain(now_));
   now_ += milliseconds(1);
-  ASSERT_TRUE(desk_.AskedInVain(now_));
-  const auto given = desk_.Give({.detail = "the camera\nis dead"}, now_);
+  ASSERT_TRUE(handler_.AskedInVain(now_));
+  const auto given = handler_.Give({.detail = "the camera\nis dead"}, now_);
   ASSERT_TRUE(given);
   EXPECT_TRUE(given->picture.empty());
   EXPECT_EQ(given->detail, "the camera is dead");
-  EXPECT_FALSE(desk_.AskedInVain(now_));
-  EXPECT_FALSE(desk_.Give({.jpeg = {1}}, now_)) << "it comes too late";
+  EXPECT_FALSE(handler_.AskedInVain(now_));
+  EXPECT_FALSE(handler_.Give({.jpeg = {1}}, now_)) << "it comes too late";
 }
 
-TEST_F(SnapshotDeskTest, WhoGaveUpMeanwhileGetsNothing) {
+TEST_F(SnapshotHandlerTest, WhoGaveUpMeanwhileGetsNothing) {
   Ask("desk", 7);
-  ASSERT_TRUE(desk_.Asks(now_));
-  now_ += SnapshotDesk::kAskedFor + milliseconds(1);
-  EXPECT_FALSE(desk_.Give({.jpeg = {1}}, now_));
+  ASSERT_TRUE(handler_.Asks(now_));
+  now_ += SnapshotHandler::kAskedFor + milliseconds(1);
+  EXPECT_FALSE(handler_.Give({.jpeg = {1}}, now_));
   Ask("desk", 8);
   EXPECT_EQ(Served(), "desk8");
 }

@@ -1,4 +1,4 @@
-#include "agent/link/mission_desk.h"
+#include "agent/link/mission_handler.h"
 
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ std::string WithWay(const std::string& detail, std::uint32_t way) {
 
 }  // namespace
 
-Result<void> MissionDesk::Load() {
+Result<void> MissionHandler::Load() {
   std::error_code ignored;
   if (file_.empty() || !fs::exists(file_, ignored)) return {};
   const auto wrong = [&] {
@@ -97,13 +97,13 @@ Result<void> MissionDesk::Load() {
   return {};
 }
 
-void MissionDesk::Begin(const Kept& kept, std::vector<mission::Task> tasks) {
+void MissionHandler::Begin(const Kept& kept, std::vector<mission::Task> tasks) {
   current_ = Current{
       .mission = kept.mission, .tasks = std::move(tasks), .task = kept.last.task, .lap = kept.lap};
   if (auto going = mission::GoingIn(kept.mission.orders)) current_->going = *std::move(going);
 }
 
-Result<void> MissionDesk::Keep() const {
+Result<void> MissionHandler::Keep() const {
   if (file_.empty()) return {};
   std::string text = std::string(kMissionsFirstLine) + "\n";
   for (const Kept& kept : kept_) {
@@ -117,21 +117,21 @@ Result<void> MissionDesk::Keep() const {
   return ReplaceFile(file_, text);
 }
 
-void MissionDesk::KeepOrSay() {
+void MissionHandler::KeepOrSay() {
   if (auto kept = Keep(); !kept) {
     news_.push_back("not remembered after a restart: " + kept.error().message);
   }
 }
 
-MissionDesk::Kept* MissionDesk::Find(const std::string& id) {
+MissionHandler::Kept* MissionHandler::Find(const std::string& id) {
   const auto found = std::find_if(kept_.begin(), kept_.end(),
                                   [&](const Kept& kept) { return kept.mission.id == id; });
   return found == kept_.end() ? nullptr : &*found;
 }
 
-MissionDesk::Kept& MissionDesk::CurrentKept() { return *Find(current_->mission.id); }
+MissionHandler::Kept& MissionHandler::CurrentKept() { return *Find(current_->mission.id); }
 
-void MissionDesk::Handle(const exchange::Message& message) {
+void MissionHandler::Handle(const exchange::Message& message) {
   if (const auto* mission = std::get_if<mission::Mission>(&message)) {
     if (mission->agent == self_) Take(*mission);
   } else if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
@@ -144,8 +144,8 @@ void MissionDesk::Handle(const exchange::Message& message) {
   }
 }
 
-void MissionDesk::Answer(Kept& kept, State state, const std::string& detail,
-                         mission::WaitsFor waits_for) {
+void MissionHandler::Answer(Kept& kept, State state, const std::string& detail,
+                            mission::WaitsFor waits_for) {
   ++kept.last.change;
   kept.last.state = state;
   kept.last.waits_for = waits_for;
@@ -163,13 +163,13 @@ void MissionDesk::Answer(Kept& kept, State state, const std::string& detail,
                               kept.last.detail));
 }
 
-bool MissionDesk::IsServers(const mission::Mission& mission) {
+bool MissionHandler::IsServers(const mission::Mission& mission) {
   if (mission.relayed || keepers_.empty()) return false;
   if (unkept_.size() >= kMostKept && !unkept_.contains(mission.id)) return true;
   return ++unkept_[mission.id] < kSentInVain;
 }
 
-void MissionDesk::Take(const mission::Mission& mission) {
+void MissionHandler::Take(const mission::Mission& mission) {
   if (Kept* known = Find(mission.id)) {
     if (mission.relayed && current_ && current_->mission.id == mission.id) Amend(*known, mission);
     known->due = true;  // its sender has not heard the answer
@@ -208,7 +208,7 @@ void MissionDesk::Take(const mission::Mission& mission) {
 }
 
 // A path that comes late is an old one.
-void MissionDesk::Amend(Kept& kept, const mission::Mission& mission) {
+void MissionHandler::Amend(Kept& kept, const mission::Mission& mission) {
   const mission::Going& before = current_->going;
   const auto going = mission::GoingIn(mission.orders);
   if (!going || going->to != before.to || going->way <= before.way) return;
@@ -224,13 +224,13 @@ void MissionDesk::Amend(Kept& kept, const mission::Mission& mission) {
   KeepOrSay();
 }
 
-void MissionDesk::GoOnAt(std::uint32_t task) {
+void MissionHandler::GoOnAt(std::uint32_t task) {
   current_->task = task;
   CurrentKept().last.task = task;
   KeepOrSay();
 }
 
-void MissionDesk::Compare(const mission::Report& report) {
+void MissionHandler::Compare(const mission::Report& report) {
   if (report.state == State::kPutOff) return;
   if (const auto unkept = unkept_.find(report.mission); unkept != unkept_.end()) {
     unkept->second = 0;
@@ -263,7 +263,7 @@ void MissionDesk::Compare(const mission::Report& report) {
   }
 }
 
-void MissionDesk::Tell(State state, const std::string& detail, mission::WaitsFor waits_for) {
+void MissionHandler::Tell(State state, const std::string& detail, mission::WaitsFor waits_for) {
   if (!current_) return;
   Kept& kept = CurrentKept();
   kept.last.task = current_->task;
@@ -272,7 +272,7 @@ void MissionDesk::Tell(State state, const std::string& detail, mission::WaitsFor
   KeepOrSay();
 }
 
-void MissionDesk::NoteDone() {
+void MissionHandler::NoteDone() {
   if (!current_) return;
   current_->begun = false;
   ++current_->lap;
@@ -286,7 +286,7 @@ void MissionDesk::NoteDone() {
   KeepOrSay();
 }
 
-std::vector<exchange::Message> MissionDesk::Due(Time now, bool server_there) {
+std::vector<exchange::Message> MissionHandler::Due(Time now, bool server_there) {
   const bool again = server_there && now >= again_at_;
   if (again) again_at_ = now + kAgain;
   std::vector<exchange::Message> due;

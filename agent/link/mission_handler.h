@@ -23,7 +23,7 @@ namespace trailcast::agent {
 // another state. A mission that this robot does not know has failed. Everything is in a file, so
 // that neither is forgotten however the agent ends. Where a server keeps missions in queues, this
 // robot takes one when that server hands it over. It has no clock of its own.
-class MissionDesk {
+class MissionHandler {
  public:
   using Time = std::chrono::steady_clock::time_point;
   // The last so many are remembered. One that was sent before these, and comes again, is taken for
@@ -33,7 +33,7 @@ class MissionDesk {
   // one.
   static constexpr int kSentInVain = 10;
 
-  MissionDesk(AgentId self, std::filesystem::path file)
+  MissionHandler(AgentId self, std::filesystem::path file)
       : self_(std::move(self)), file_(std::move(file)) {}
 
   // Loads what an earlier run has left. kCorrupt means that another program wrote to the file.

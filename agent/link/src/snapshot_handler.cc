@@ -1,4 +1,4 @@
-#include "agent/link/snapshot_desk.h"
+#include "agent/link/snapshot_handler.h"
 
 #include <algorithm>
 #include <variant>
@@ -8,7 +8,7 @@
 
 namespace trailcast::agent {
 
-void SnapshotDesk::Handle(const exchange::Message& message, Time now) {
+void SnapshotHandler::Handle(const exchange::Message& message, Time now) {
   const auto* request = std::get_if<exchange::GlanceRequest>(&message);
   if (request == nullptr || request->agent != self_) return;
   Forget(now);
@@ -23,12 +23,12 @@ void SnapshotDesk::Handle(const exchange::Message& message, Time now) {
 }
 
 // A request this old is given up, or its client has asked again.
-void SnapshotDesk::Forget(Time now) {
+void SnapshotHandler::Forget(Time now) {
   std::erase_if(waiting_, [&](const Waiting& waiting) { return now - waiting.since > kAskedFor; });
   if (waiting_.empty()) asked_ = false;
 }
 
-bool SnapshotDesk::Asks(Time now) {
+bool SnapshotHandler::Asks(Time now) {
   Forget(now);
   if (asked_ || waiting_.empty()) return false;
   if (asked_at_ && now - *asked_at_ < kEvery) return false;
@@ -37,9 +37,9 @@ bool SnapshotDesk::Asks(Time now) {
   return true;
 }
 
-bool SnapshotDesk::AskedInVain(Time now) const { return asked_ && now - *asked_at_ > kPatience; }
+bool SnapshotHandler::AskedInVain(Time now) const { return asked_ && now - *asked_at_ > kPatience; }
 
-std::optional<exchange::Glance> SnapshotDesk::Give(CameraPicture picture, Time now) {
+std::optional<exchange::Glance> SnapshotHandler::Give(CameraPicture picture, Time now) {
   Forget(now);
   if (!asked_) return std::nullopt;
   asked_ = false;
