@@ -10,7 +10,7 @@ namespace trailcast::route {
 
 // This is a section of a route with much the same ground. Its ends are in metres from the route's
 // beginning or, if the route was taught without odometry, in seconds of teaching in motion.
-struct TerrainStretch {
+struct TerrainSection {
   double begin = 0.0;
   double end = 0.0;
   SegmentIndex first;
@@ -23,10 +23,10 @@ class TerrainProfile {
   void Add(const Segment& segment);
   // Returns the sections in the route's order, without gaps. In each, the ground is of one
   // roughness, and its slopes agree within a degree and a half.
-  [[nodiscard]] const std::vector<TerrainStretch>& stretches() const { return stretches_; }
+  [[nodiscard]] const std::vector<TerrainSection>& sections() const { return sections_; }
 
  private:
-  std::vector<TerrainStretch> stretches_;
+  std::vector<TerrainSection> sections_;
 };
 
 // Returns, for people, "rough (1.20 m/s2), 4.1 degrees uphill", "uneven (shakes by 0.8 % of the

@@ -17,7 +17,7 @@ namespace trailcast::fleet {
 // This is what a route's segments tell of it that its catalog entry does not.
 struct RouteStudy {
   std::vector<view::WeakPlace> weak_places;
-  std::vector<route::TerrainStretch> terrain{};
+  std::vector<route::TerrainSection> terrain{};
 };
 using RouteStudies = std::map<route::RouteKey, RouteStudy>;
 

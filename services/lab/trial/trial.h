@@ -18,7 +18,7 @@ struct TrialOutcome {
   TrialRow row;
   TruePath taught;
   TruePath replayed;
-  std::vector<route::TerrainStretch> ground{};  // along the taught path
+  std::vector<route::TerrainSection> ground{};  // along the taught path
 };
 
 // One of several visits.

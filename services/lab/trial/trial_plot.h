@@ -16,7 +16,7 @@ namespace trailcast::trial {
     const std::vector<TrialOutcome>& outcomes);
 
 // Returns where the ground felt rough, along the taught path.
-[[nodiscard]] std::vector<plot::PlottedPath> RoughStretches(const TrialOutcome& outcome);
+[[nodiscard]] std::vector<plot::PlottedPath> RoughSections(const TrialOutcome& outcome);
 
 // Returns the part of the world around the paths, seen from above and made pale.
 [[nodiscard]] plot::Backdrop WorldBackdrop(const sim::World& world,

@@ -158,9 +158,9 @@ route::TrackKnot PathEstimator::TaughtPlaceAt(std::size_t index, double along_m)
     return camera.Turned(place, heading_rad - route::HeadingAt(segment_.heading, knot_m));
   };
   const double s = std::max(0.0, along_m) / std::max(1e-3, segment_.length_m);
-  const route::TrackStretch stretch = route::StretchAt(feature, s);
+  const route::TrackInterval interval = route::IntervalAt(feature, s);
   const Eigen::Vector2d place =
-      (1.0 - stretch.weight) * moved(stretch.before) + stretch.weight * moved(stretch.after);
+      (1.0 - interval.weight) * moved(interval.before) + interval.weight * moved(interval.after);
   return {0.0F, static_cast<float>(place.x()), static_cast<float>(place.y())};
 }
 

@@ -19,26 +19,26 @@ bool Alike(const Terrain& a, const Terrain& b) {
   return !a.slope_rad || std::abs(*a.slope_rad - *b.slope_rad) <= kAsSteep_rad;
 }
 
-void TakeUp(const Terrain& terrain, double length, TerrainStretch& stretch) {
-  const double before = stretch.end - stretch.begin;
-  stretch.terrain.shake = std::max(stretch.terrain.shake, terrain.shake);
-  stretch.terrain.vertical_mps2 = std::max(stretch.terrain.vertical_mps2, terrain.vertical_mps2);
+void TakeUp(const Terrain& terrain, double length, TerrainSection& section) {
+  const double before = section.end - section.begin;
+  section.terrain.shake = std::max(section.terrain.shake, terrain.shake);
+  section.terrain.vertical_mps2 = std::max(section.terrain.vertical_mps2, terrain.vertical_mps2);
   if (terrain.slope_rad && before + length > 0.0) {
-    *stretch.terrain.slope_rad +=
-        (*terrain.slope_rad - *stretch.terrain.slope_rad) * length / (before + length);
+    *section.terrain.slope_rad +=
+        (*terrain.slope_rad - *section.terrain.slope_rad) * length / (before + length);
   }
-  stretch.end += length;
+  section.end += length;
 }
 
 }  // namespace
 
 void TerrainProfile::Add(const Segment& segment) {
   const double length = segment.extent();
-  const double begin = stretches_.empty() ? 0.0 : stretches_.back().end;
-  if (!stretches_.empty() && Alike(stretches_.back().terrain, segment.terrain)) {
-    TakeUp(segment.terrain, length, stretches_.back());
+  const double begin = sections_.empty() ? 0.0 : sections_.back().end;
+  if (!sections_.empty() && Alike(sections_.back().terrain, segment.terrain)) {
+    TakeUp(segment.terrain, length, sections_.back());
   } else {
-    stretches_.push_back({begin, begin + length, segment.index, segment.terrain});
+    sections_.push_back({begin, begin + length, segment.index, segment.terrain});
   }
 }
 

@@ -50,16 +50,16 @@ TEST(TerrainProfile, PutsTogetherWhatIsAsRoughAndMuchAsSteep) {
   profile.Add(Felt(3, {0.002, 1.2, 0.08}));
   profile.Add(Felt(4, {0.001, 1.0, 0.07}));
   profile.Add(Felt(5, {}));
-  const auto& stretches = profile.stretches();
-  ASSERT_EQ(stretches.size(), 4U);
-  EXPECT_EQ(stretches[0].end, 4.0);
-  EXPECT_EQ(stretches[0].terrain.vertical_mps2, 0.2) << "the roughest";
-  EXPECT_NEAR(stretches[0].terrain.slope_rad.value(), 0.01, 1e-9) << "the mean";
-  EXPECT_EQ(stretches[2].begin, 6.0);
-  EXPECT_EQ(stretches[2].end, 10.0);
-  EXPECT_EQ(stretches[2].first, SegmentIndex(3));
-  EXPECT_EQ(TerrainText(stretches[2].terrain), "rough (1.20 m/s2), 4.3 degrees uphill");
-  EXPECT_EQ(TerrainText(stretches[3].terrain), "not known");
+  const auto& sections = profile.sections();
+  ASSERT_EQ(sections.size(), 4U);
+  EXPECT_EQ(sections[0].end, 4.0);
+  EXPECT_EQ(sections[0].terrain.vertical_mps2, 0.2) << "the roughest";
+  EXPECT_NEAR(sections[0].terrain.slope_rad.value(), 0.01, 1e-9) << "the mean";
+  EXPECT_EQ(sections[2].begin, 6.0);
+  EXPECT_EQ(sections[2].end, 10.0);
+  EXPECT_EQ(sections[2].first, SegmentIndex(3));
+  EXPECT_EQ(TerrainText(sections[2].terrain), "rough (1.20 m/s2), 4.3 degrees uphill");
+  EXPECT_EQ(TerrainText(sections[3].terrain), "not known");
 }
 
 TEST(TerrainProfile, OfARouteWithoutOdometryIsInSeconds) {
@@ -68,7 +68,7 @@ TEST(TerrainProfile, OfARouteWithoutOdometryIsInSeconds) {
   segment.has_odometry = false;
   segment.length_m = 0.0;
   profile.Add(segment);
-  EXPECT_EQ(profile.stretches().front().end, 5.0);
+  EXPECT_EQ(profile.sections().front().end, 5.0);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ Result<RouteStudy> StudyRoute(OperatorPeer& peer, const route::RouteInfo& info,
         return {};
       });
   if (!fetched) return tl::unexpected(fetched.error());
-  return RouteStudy{finder.Places(), terrain.stretches()};
+  return RouteStudy{finder.Places(), terrain.sections()};
 }
 
 std::string WeakPlacesText(const route::RouteInfo& info, const RouteStudy& study) {
@@ -81,30 +81,30 @@ std::string GroundText(const route::RouteInfo& info, const RouteStudy& study) {
   const std::string route = fmt::format("'{}' revision {}", info.name, info.revision.value());
   const bool known =
       std::any_of(study.terrain.begin(), study.terrain.end(),
-                  [](const route::TerrainStretch& stretch) { return stretch.terrain.known(); });
+                  [](const route::TerrainSection& section) { return section.terrain.known(); });
   if (!known) return fmt::format("{}: of its ground nothing is known\n", route);
   std::string text = fmt::format("{}: its ground\n", route);
-  for (const route::TerrainStretch& stretch : study.terrain) {
-    text += fmt::format("  {:>8.1f} to {:>8.1f} {}  {}\n", stretch.begin, stretch.end, UnitOf(info),
-                        route::TerrainText(stretch.terrain));
+  for (const route::TerrainSection& section : study.terrain) {
+    text += fmt::format("  {:>8.1f} to {:>8.1f} {}  {}\n", section.begin, section.end, UnitOf(info),
+                        route::TerrainText(section.terrain));
   }
   return text;
 }
 
 Json GroundJson(const route::RouteInfo& info, const RouteStudy& study) {
-  Json stretches = Json::array();
-  for (const route::TerrainStretch& stretch : study.terrain) {
-    const route::Terrain& terrain = stretch.terrain;
-    Json each = ExtentJson(info, stretch.begin, stretch.end);
+  Json sections = Json::array();
+  for (const route::TerrainSection& section : study.terrain) {
+    const route::Terrain& terrain = section.terrain;
+    Json each = ExtentJson(info, section.begin, section.end);
     if (const auto roughness = route::RoughnessOf(terrain)) {
       each["roughness"] = route::NameOf(*roughness);
     }
     if (terrain.shake) each["shake"] = Rounded(*terrain.shake, 1e4);
     if (terrain.vertical_mps2) each["vertical_mps2"] = Rounded(*terrain.vertical_mps2, 100.0);
     if (terrain.slope_rad) each["slope_deg"] = Rounded(Degrees(*terrain.slope_rad), 10.0);
-    stretches.push_back(std::move(each));
+    sections.push_back(std::move(each));
   }
-  return stretches;
+  return sections;
 }
 
 }  // namespace trailcast::fleet

@@ -388,7 +388,7 @@ Result<Followed> Follow(const TrialSetup& setup, const TrialCase& trial_case,
   }
   if (auto ended = replaying.EndLog(); !ended) return tl::unexpected(ended.error());
   Followed followed{{BeginRow(setup, trial_case, seed, trial, judged_by, route), judged_by.path,
-                     replaying.path(), route.ground.stretches()},
+                     replaying.path(), route.ground.sections()},
                     replaying.TakeVisit()};
   followed.outcome.row.visit = visit.number;
   replaying.Fill(followed.outcome.row);

@@ -106,18 +106,18 @@ std::vector<plot::PlottedPath> ReplayedPaths(const std::vector<TrialOutcome>& ou
   return paths;
 }
 
-std::vector<plot::PlottedPath> RoughStretches(const TrialOutcome& outcome) {
+std::vector<plot::PlottedPath> RoughSections(const TrialOutcome& outcome) {
   std::vector<plot::PlottedPath> bands;
   std::set<route::Roughness> named;
   if (outcome.ground.empty() || outcome.ground.back().end <= 0.0) return bands;
   const double share = outcome.taught.length_m() / outcome.ground.back().end;
-  for (const route::TerrainStretch& stretch : outcome.ground) {
-    const auto roughness = route::RoughnessOf(stretch.terrain);
+  for (const route::TerrainSection& section : outcome.ground) {
+    const auto roughness = route::RoughnessOf(section.terrain);
     if (!roughness || *roughness == route::Roughness::kSmooth) continue;
     const bool first = named.insert(*roughness).second;
     bands.push_back({first ? fmt::format("{} ground", route::NameOf(*roughness)) : "",
                      kBandColors[static_cast<std::size_t>(*roughness) - 1],
-                     Between(outcome.taught, share * stretch.begin, share * stretch.end), false,
+                     Between(outcome.taught, share * section.begin, share * section.end), false,
                      false, true});
   }
   return bands;
@@ -146,7 +146,7 @@ Result<void> WriteTrialPlot(const TrialSetup& setup, const std::vector<TrialOutc
   plan.paths.push_back({"taught (first trial)", plot::PathColor(0),
                         outcomes.front().taught.points_m(), true, false});
   for (plot::PlottedPath& path : ReplayedPaths(outcomes)) plan.paths.push_back(std::move(path));
-  for (plot::PlottedPath& band : RoughStretches(outcomes.front())) {
+  for (plot::PlottedPath& band : RoughSections(outcomes.front())) {
     plan.paths.push_back(std::move(band));
   }
   plan.backdrop = WorldBackdrop(*setup.world, plan.paths);

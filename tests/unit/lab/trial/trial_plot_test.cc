@@ -20,7 +20,7 @@ TrialOutcome Replayed(const std::string& method, int trial, bool arrived = true)
   return outcome;
 }
 
-TEST(RoughStretches, LieAlongTheTaughtPathWhereTheGroundIsNotSmooth) {
+TEST(RoughSections, LieAlongTheTaughtPathWhereTheGroundIsNotSmooth) {
   TrialOutcome outcome;
   for (int i = 0; i <= 100; ++i) outcome.taught.Add({0.1 * i, 1.0});
   // By odometry, which is 5 % short, 9.5 m.
@@ -28,7 +28,7 @@ TEST(RoughStretches, LieAlongTheTaughtPathWhereTheGroundIsNotSmooth) {
                     {3.8, 5.7, SegmentIndex(2), {0.02, {}, {}}},
                     {5.7, 7.6, SegmentIndex(3), {0.01, {}, {}}},
                     {7.6, 9.5, SegmentIndex(4), {0.02, {}, {}}}};
-  const auto bands = RoughStretches(outcome);
+  const auto bands = RoughSections(outcome);
   ASSERT_EQ(bands.size(), 3U);
   EXPECT_EQ(bands[0].label, "rough ground");
   EXPECT_TRUE(bands[0].band);
