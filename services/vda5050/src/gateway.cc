@@ -50,11 +50,11 @@ exchange::MissionRequest OpenMissions(const AgentId& self) {
 }  // namespace
 
 exchange::TopicUse GatewayTopics() {
-  return {
-      .write = {Topic::kNow, Topic::kMissions, Topic::kMissionRequests, Topic::kNetworkRequests},
-      .read = {Topic::kNowAnswers, Topic::kMissionStates, Topic::kMissionReplies,
-               Topic::kNetworkReplies},
-      .overhear = {Topic::kAgents}};
+  return {.write = {Topic::kNow, Topic::kMissions, Topic::kMissionRequests, Topic::kNetworkRequests,
+                    Topic::kCatalogRequests},
+          .read = {Topic::kNowAnswers, Topic::kMissionStates, Topic::kMissionReplies,
+                   Topic::kNetworkReplies, Topic::kCatalogReplies},
+          .overhear = {Topic::kAgents}};
 }
 
 Gateway::Gateway(AgentId self, std::unique_ptr<exchange::RouteExchange> exchange, Options options)
@@ -196,7 +196,11 @@ void Gateway::AskServers(Time now) {
   if (network_question_ && now >= network_question_->ask_at) {
     network_question_->ask_at = now + kAskAgain;
     const auto& [request, routes, lines, has_network, began, ask_at] = *network_question_;
-    (void)exchange_->Publish(has_network ? exchange::Message(routes) : exchange::Message(request));
+    const auto asked =
+        exchange_->Publish(has_network ? exchange::Message(routes) : exchange::Message(request));
+    if (!asked && asked.error().code != ErrorCode::kUnavailable) {
+      spdlog::error("the network of routes cannot be asked for: {}", asked.error().message);
+    }
   }
 }
 
