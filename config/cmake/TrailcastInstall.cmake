@@ -6,7 +6,7 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
 set(modules "${CMAKE_INSTALL_LIBDIR}/trailcast")
 install(TARGETS trailcast-agent COMPONENT agent)
 install(TARGETS trailcast-server COMPONENT server)
-install(TARGETS trailcast trailcast-console COMPONENT tools)
+install(TARGETS trailcast trailcast-console trailcast-vda5050 COMPONENT tools)
 install(TARGETS trailcast_codecs trailcast_simulated_module LIBRARY DESTINATION "${modules}"
                                                             COMPONENT tools)
 install(FILES config/systemd/trailcast-server.service DESTINATION lib/systemd/system
@@ -28,7 +28,7 @@ install(FILES config/agent/agent.toml config/agent/camera.toml config/agent/car.
 # Debian's zsh looks in vendor-completions below /usr, and in site-functions below /usr/local.
 find_program(Gzip gzip REQUIRED)
 set(pages)
-foreach(program trailcast trailcast-agent trailcast-console trailcast-server)
+foreach(program trailcast trailcast-agent trailcast-console trailcast-server trailcast-vda5050)
   set(component tools)
   if(program MATCHES "-(agent|server)$")
     set(component "${CMAKE_MATCH_1}")

@@ -25,4 +25,4 @@ _trailcast_flags() { sed -n 's/^  \(-h,\)\{0,1\}\(--[a-z][a-z0-9-]*\).*/\2/p'; }
 _trailcast_commands() {
   "$@" --help 2>/dev/null | sed -n '/^Subcommands:/,/^$/ s/^  \([a-z][a-z-]*\) .*/\1/p' | tr '\n' ' '
 }
-complete -o filenames -F _trailcast trailcast trailcast-agent trailcast-console trailcast-server
+complete -o filenames -F _trailcast trailcast trailcast-agent trailcast-console trailcast-server trailcast-vda5050

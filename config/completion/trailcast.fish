@@ -24,6 +24,6 @@ function __trailcast_complete
         __fish_complete_path (commandline -ct)
     end
 end
-for program in trailcast trailcast-agent trailcast-console trailcast-server
+for program in trailcast trailcast-agent trailcast-console trailcast-server trailcast-vda5050
     complete -c $program -f -a '(__trailcast_complete)'
 end

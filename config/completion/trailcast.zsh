@@ -1,4 +1,4 @@
-#compdef trailcast trailcast-agent trailcast-console trailcast-server
+#compdef trailcast trailcast-agent trailcast-console trailcast-server trailcast-vda5050
 # Completion for zsh: commands, flags, and the values that a flag takes from a list, as the programs
 # themselves explain them.
 _trailcast_commands() {

@@ -23,7 +23,7 @@ struct Shown {
 
 bool IsProgram(const std::string& word) {
   static const std::set<std::string> kPrograms{"trailcast", "trailcast-agent", "trailcast-console",
-                                               "trailcast-server"};
+                                               "trailcast-server", "trailcast-vda5050"};
   return kPrograms.contains(word);
 }
 
