@@ -34,9 +34,9 @@ struct BrokerMessage {
   bool retained = false;
 };
 
-// A client of an MQTT broker. Whoever is connected has one last will, so each robot has a client of
-// its own. It connects, and connects again after the broker was gone, on a thread of its own; other
-// methods may be called by one other thread.
+// A client of an MQTT broker. The broker gives each client one last will, so each robot has a
+// client of its own. It connects, and connects again after the broker was gone, on a thread of its
+// own; other methods may be called by one other thread.
 class BrokerLink {
  public:
   // More are dropped, the oldest first: strangers may send them.

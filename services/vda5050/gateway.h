@@ -22,7 +22,7 @@
 
 namespace trailcast::vda5050 {
 
-// What the gateway reads and writes in the fleet.
+// Returns the topics that the gateway reads and writes in the fleet.
 [[nodiscard]] exchange::TopicUse GatewayTopics();
 
 // Stands between a fleet and an MQTT broker: each follower that is heard is a vehicle there, with a
@@ -63,8 +63,8 @@ class Gateway {
     std::uint32_t state_headers = 0;
     std::uint32_t factsheet_headers = 0;
   };
-  // What a server lists of its network, and then of routes that robots follow, page after page: it
-  // need not list one that nothing joins.
+  // A question for a server's network, and then for the routes that robots follow, page after page,
+  // since the network need not list a route that nothing joins.
   struct NetworkQuestion {
     exchange::NetworkRequest request{};
     exchange::CatalogRequest routes{};

@@ -24,7 +24,7 @@ class Graph {
   };
   // Finds a node by its id: a place's name, ROUTE:METRES or ROUTE@METRES. kNotFound.
   [[nodiscard]] Result<Node> Find(std::string_view id) const;
-  // As network::Network::ShortestWay.
+  // Returns what network::Network::ShortestWay does.
   [[nodiscard]] Result<network::Way> WayBetween(const network::Place& from,
                                                 const network::Place& to) const;
   // Returns whether a robot there stands on the node: no more than kOnNode_m before or beyond it,

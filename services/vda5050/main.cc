@@ -23,7 +23,7 @@ constexpr const char* kFooter = R"(Examples:
   trailcast-vda5050 --vouch-for-emergency-stops --vda-version 2.1 --battery-if-untold 100
   mosquitto_sub -v -t 'vda5050/v3/#'       # what it tells; of 2.1: uagv/v2/#
 
-Each robot on duty ('trailcast-agent serve') is a vehicle there, serialNumber its name. Nodes of an
+Each robot that takes missions ('trailcast-agent serve') is a vehicle there, serialNumber its name. Nodes of an
 order are places' names, or ROUTE:METRES, as hall:2.5; 'trailcast network' lists names, junctions
 and ends. Edges may have any ids. What is released is driven, and a pause or cancelOrder is what
 'trailcast pause' and 'trailcast cancel' are. None of it is an emergency stop: a robot that is out
@@ -63,7 +63,7 @@ trailcast::Result<void> TakeBroker(const std::string& text, vda5050::BrokerOptio
   return {};
 }
 
-// What is wrong with them; empty: nothing.
+// Returns what is wrong with them, or an empty text.
 std::string WrongIn(const GatewayOptions& options) {
   const vda5050::BrokerOptions& broker = options.gateway.broker;
   if (!options.vouches) {

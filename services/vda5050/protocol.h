@@ -61,7 +61,7 @@ enum class Connection : std::uint8_t { kOnline, kOffline, kBroken };
 [[nodiscard]] std::string ConnectionText(const Identity& identity, Connection connection,
                                          std::uint32_t header_id, std::int64_t unix_ms);
 
-// What the factsheet has to say of a robot's body, and the gateway cannot know. Lengths are in
+// A robot's body, of which the factsheet has to tell and the gateway knows nothing. Lengths are in
 // metres, speeds in m/s, accelerations in m/s^2.
 struct Body {
   std::string series = "trailcast";

@@ -79,9 +79,9 @@ class Vehicle {
     Time began{};
     Time say_at{};
     std::vector<network::Stretch> stretches{};
-    std::vector<std::uint32_t> tasks{};  // of the mission, one a stretch
+    std::vector<std::uint32_t> tasks{};  // of the mission, one for each section
     std::vector<Mark> marks{};
-    std::size_t on = 0;      // the stretch that it is on
+    std::size_t on = 0;      // the section that it is on
     double driven_m = 0.0;   // from the leg's beginning
     double from_m = 0.0;     // the last node, by the same measure
     bool withdrawn = false;  // the order is being cancelled

@@ -136,7 +136,7 @@ void BrokerLink::Run() {
     if (closed()) return;
     code = waits ? mosquitto_reconnect(client_) : mosquitto_reconnect_async(client_);
   }
-  // What says good-bye is sent yet.
+  // The last message and the good-bye are still to be sent.
   for (int i = 0; i < kLastLoops && connected_ && code == MOSQ_ERR_SUCCESS; ++i) {
     code = mosquitto_loop(client_, kLoop_ms, 1);
   }

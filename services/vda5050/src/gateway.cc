@@ -29,7 +29,7 @@ constexpr seconds kNetworkEvery{5};  // while none is known
 constexpr seconds kMissionsEvery{30};
 constexpr std::size_t kMostLines = 500'000;
 
-// Whom alone the message is about; nothing: all may have to hear it.
+// Returns the only agent that the message is about, or nothing if all may have to hear it.
 std::optional<AgentId> AgentOf(const exchange::Message& message) {
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) return status->agent;
   if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) return gone->agent;
@@ -147,7 +147,7 @@ Result<void> Gateway::Present(Robot& robot) {
   return {};
 }
 
-// What may stop a robot comes before what sends it on.
+// Instant actions, which may stop a robot, come before orders.
 void Gateway::TakeFromBroker(Robot& robot, Time now) {
   const Identity& identity = robot.vehicle.identity();
   const std::string order_topic = TopicOf(identity, "order");

@@ -23,7 +23,7 @@ Fault Malformed(fmt::format_string<Args...> format, Args&&... args) {
           .description = fmt::format(format, std::forward<Args>(args)...)};
 }
 
-// What a robot that follows routes does not do. A null says nothing.
+// These fields ask for what a robot that follows routes does not do. A null asks for nothing.
 constexpr std::array kUnsupportedOfOrder{"zoneSetId"};
 constexpr std::array kUnsupportedOfEdge{"maximumSpeed",
                                         "maximumMobileRobotHeight",
@@ -158,7 +158,7 @@ std::optional<Fault> TakeSteps(const Parsed& message, const char* list, const ch
   return std::nullopt;
 }
 
-// What is released comes first, whole edges with both nodes.
+// Checks that released edges have both of their nodes, and come first.
 std::optional<Fault> CheckReleased(const Order& order) {
   if (!order.nodes.front().released) return Malformed("the first node is not released");
   for (std::size_t i = 0; i < order.edges.size(); ++i) {

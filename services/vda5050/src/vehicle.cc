@@ -25,7 +25,7 @@ using std::chrono::milliseconds;
 // A server makes orders longer where it leads the robot another way.
 constexpr std::size_t kMostOrdersBytes = exchange::kMaxLineBytes / 2;
 constexpr double kLeastStretch_m = 0.02;
-// How far a robot's place may be off a stretch that it is on.
+// A robot's place may be off the section that it is on by this.
 constexpr double kOffStretch_m = 0.5;
 constexpr double kReached_m = 0.05;
 constexpr std::size_t kMostOwn = 32;
@@ -35,7 +35,7 @@ constexpr milliseconds kTellOnAgain{500};  // what was not answered in time
 
 double ToCentimetres(double metres) { return std::round(100.0 * metres) / 100.0; }
 
-// Has them with the turns before them; `of` gets the task of each stretch.
+// Returns them with the turns before them; `of` gets the task of each section.
 std::vector<mission::Task> TasksAlong(const std::vector<network::Stretch>& stretches,
                                       std::vector<std::uint32_t>& of) {
   std::vector<mission::Task> tasks;
@@ -282,7 +282,7 @@ std::optional<Fault> Vehicle::TakeUpdate(Order order, const Graph* graph) {
   held.nodes.resize(last + 1);
   held.edges.resize(last);
   if (held.nodes.size() + order.nodes.size() > 2 * kMostNodes) {
-    // What lies behind the robot is needed no more.
+    // The nodes behind the robot are no longer needed.
     held.nodes.erase(held.nodes.begin(),
                      held.nodes.begin() + static_cast<std::ptrdiff_t>(held_->at));
     held.edges.erase(held.edges.begin(),
@@ -568,7 +568,8 @@ bool Vehicle::SeeTo(Command& command, Time now) {
   const fleet::RobotsWord& word = words.front();
   const bool cancels = command.order == NowOrder::kCancel;
   if (command.telling.AllAnswered(since)) {
-    // Of a mission that it has not taken, or that has ended, a robot says that it has none.
+    // A robot says that it has no mission if it has not taken the one that is meant, or has ended
+    // it.
     if (word.refused && !(cancels && !RobotHasLeg())) {
       NotObeyed(command, identity_.serial + " does not obey: " + word.detail);
       return true;

@@ -1,4 +1,4 @@
-// What a vehicle tells of itself.
+// This is the state of a vehicle, as the broker is told it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using exchange::AgentMode;
 using program::Json;
 
 constexpr std::size_t kMostWords = 512;
-// Who has not answered a mission for so long is told of.
+// A robot that has not answered a mission for so long is reported.
 constexpr std::chrono::milliseconds kAnswersMission{5000};
 
 Json StepJson(const Step& step, const char* id) {
