@@ -154,7 +154,7 @@ function Page() {
         {page === 'cameras' && <Cameras robots={robots} settled={settled} onStop={onStop} />}
         {page === 'network' && <NetworkPage robots={robots} live={fleet?.routes ?? []} />}
         {page === 'routes' && <Routes open={open} now_ms={now_ms - now_ms % kStep_ms} />}
-        {page === 'history' && <History open={open} now_ms={now_ms} />}
+        {page === 'history' && <History open={open} live={fleet?.missions ?? []} now_ms={now_ms} />}
       </main>
       <footer>
         <p id="stop-help">

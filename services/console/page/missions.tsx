@@ -1,6 +1,11 @@
 import type { Mission } from './api';
 import { age, when } from './fleet';
 
+export const isOver = ({ state }: Mission) => ['arrived', 'failed', 'cancelled', 'refused', 'expired'].includes(state);
+
+// This is the address that opens a mission. No name of a robot has a colon.
+export const addressOf = ({ robot, mission }: Mission) => `#history/mission-${robot}:${mission}`;
+
 export function Missions({ missions, now_ms }: { missions: Mission[] | null; now_ms: number }) {
   if (missions === null) return <p className="note">Loading missions …</p>;
   if (missions.length === 0) return <p className="note">No robot was sent anywhere yet.</p>;

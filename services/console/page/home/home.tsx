@@ -1,9 +1,10 @@
-import { useEffect, useRef } from 'react';
+import { useEffect, useRef, useSyncExternalStore } from 'react';
 import type { Fleet, Robot } from '../api';
 import { Missions } from '../missions';
 import { RobotCard } from '../robot/robot';
 import { RobotRows } from './rows';
 import { SiteLive } from './site-live';
+import { Timeline } from './timeline';
 
 // Who is looked at where nobody was chosen: the same one for as long as it is there.
 export function useChosen(robots: Robot[], open: string): Robot | null {
@@ -12,6 +13,15 @@ export function useChosen(robots: Robot[], open: string): Robot | null {
   const chosen = robots.find((robot) => robot.name === open) ?? robots.find((robot) => robot.name === last.current) ?? first() ?? null;
   last.current = chosen?.name ?? '';
   return chosen;
+}
+
+// On a desk panes lie side by side, and the day has room.
+const desk = window.matchMedia('(min-width: 64.01rem)');
+function useDesk(): boolean {
+  return useSyncExternalStore((changed) => {
+    desk.addEventListener('change', changed);
+    return () => desk.removeEventListener('change', changed);
+  }, () => desk.matches);
 }
 
 // All robots, the site with them upon it, and one of them.
@@ -25,11 +35,12 @@ export function Home({ fleet, open, chosen, settled, lost_ms, now_ms, onStop }: 
   onStop: (robot: string) => void;
 }) {
   const robots = fleet?.robots ?? [];
+  const wide = useDesk();
   const pane = useRef<HTMLElement>(null);
   // In one column whoever chooses a robot wants to see it; beside the others it is in view.
   const isThere = chosen !== null && chosen.name === open;
   useEffect(() => {
-    if (isThere && window.matchMedia('(max-width: 64rem)').matches) pane.current?.scrollIntoView({ block: 'start' });
+    if (isThere && !desk.matches) pane.current?.scrollIntoView({ block: 'start' });
   }, [open, isThere]);
   return (
     <div className="home">
@@ -41,11 +52,14 @@ export function Home({ fleet, open, chosen, settled, lost_ms, now_ms, onStop }: 
       </section>
       <div className="middle">
         <SiteLive robots={robots} live={fleet?.routes ?? []} settled={settled} chosen={chosen} />
-        <section className="pane missions" aria-label="Missions">
-          <header><h2>Missions</h2></header>
-          <Missions missions={fleet?.missions ?? null} now_ms={now_ms} />
-        </section>
+        {!wide && (
+          <section className="pane missions" aria-label="Missions">
+            <header><h2>Missions</h2></header>
+            <Missions missions={fleet?.missions ?? null} now_ms={now_ms} />
+          </section>
+        )}
       </div>
+      {wide && <Timeline fleet={fleet} lost_ms={lost_ms} now_ms={now_ms} />}
     </div>
   );
 }

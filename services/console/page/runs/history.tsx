@@ -1,9 +1,10 @@
-import { useEffect, useState, type FormEvent } from 'react';
+import { useEffect, useMemo, useState, type FormEvent } from 'react';
 import { get, sendAgain, type Answer, type Command, type CommandPage, type Mission, type MissionPage } from '../api';
 import { AlertHistory } from '../alerts/alerts';
 import { Copy } from '../copy';
 import { age, when } from '../fleet';
 import { useMay } from '../me';
+import { isOver } from '../missions';
 import { Slide } from '../robot/send';
 import { RunPage } from './run';
 import { RunList, RunsOf } from './run-list';
@@ -91,7 +92,7 @@ function Life({ mission }: { mission: Mission }) {
     limit: '100',
   });
   const { records, told, more } = useRecords('/api/commands', search, commandsOf, 'It was told nothing meanwhile.');
-  const over = ['arrived', 'failed', 'cancelled', 'refused', 'expired'].includes(mission.state);
+  const over = isOver(mission);
   const mayOperate = useMay('operate');
   const [answer, setAnswer] = useState<Answer | null>(null);
   const happened = [
@@ -120,8 +121,8 @@ function Life({ mission }: { mission: Mission }) {
   );
 }
 
-function MissionLine({ mission, now_ms }: { mission: Mission; now_ms: number }) {
-  const [open, setOpen] = useState(false);
+function MissionLine({ mission, now_ms, opened = false }: { mission: Mission; now_ms: number; opened?: boolean }) {
+  const [open, setOpen] = useState(opened);
   const took_s = Math.max(0, mission.changed_unix_ms - mission.sent_unix_ms) / 1000;
   return (
     <>
@@ -141,6 +142,18 @@ function MissionLine({ mission, now_ms }: { mission: Mission; now_ms: number }) 
   );
 }
 
+function MissionTable({ missions, now_ms, opened }: { missions: Mission[]; now_ms: number; opened?: boolean }) {
+  if (missions.length === 0) return null;
+  return (
+    <table>
+      <thead><tr><th>Sent</th><th>Robot</th><th>Orders</th><th>State</th><th>Duration</th><th>Why</th><th>Operator</th></tr></thead>
+      <tbody>
+        {missions.map((each) => <MissionLine key={`${each.robot} ${each.mission}`} mission={each} now_ms={now_ms} opened={opened} />)}
+      </tbody>
+    </table>
+  );
+}
+
 function MissionHistory({ now_ms }: { now_ms: number }) {
   const [search, setSearch] = useState<Search>({});
   const { records, told, more } = useRecords('/api/missions', search, missionsOf);
@@ -148,15 +161,23 @@ function MissionHistory({ now_ms }: { now_ms: number }) {
     <>
       <Filters ofMissions onSearch={setSearch} />
       {told}
-      {records.length > 0 && (
-        <table>
-          <thead><tr><th>Sent</th><th>Robot</th><th>Orders</th><th>State</th><th>Duration</th><th>Why</th><th>Operator</th></tr></thead>
-          <tbody>
-            {records.map((each) => <MissionLine key={`${each.robot} ${each.mission}`} mission={each} now_ms={now_ms} />)}
-          </tbody>
-        </table>
-      )}
+      <MissionTable missions={records} now_ms={now_ms} />
       {more}
+    </>
+  );
+}
+
+// A mission has an address of its own. It is asked for again as it changes.
+function OneMission({ name, live, now_ms }: { name: string; live: Mission[]; now_ms: number }) {
+  const [robot, mission] = name.split(':');
+  const now = live.find((each) => each.robot === robot && each.mission === mission);
+  const search = useMemo<Search>(() => ({ robot, mission }), [robot, mission, now?.state, now?.changed_unix_ms]);
+  const { records, told } = useRecords('/api/missions', search, missionsOf, 'No server keeps this mission.');
+  return (
+    <>
+      <p><a href="#history">All missions</a></p>
+      {told}
+      <MissionTable missions={records} now_ms={now_ms} opened />
     </>
   );
 }
@@ -190,7 +211,9 @@ function CommandHistory({ now_ms }: { now_ms: number }) {
   );
 }
 
-export function History({ open, now_ms }: { open: string; now_ms: number }) {
+const kMission = 'mission-';
+
+export function History({ open, live, now_ms }: { open: string; live: Mission[]; now_ms: number }) {
   const kind = ['commands', 'runs', 'alerts'].includes(open) ? open : 'missions';
   if (open.startsWith('run-')) return <RunPage key={open} id={open.slice('run-'.length)} />;
   return (
@@ -202,7 +225,9 @@ export function History({ open, now_ms }: { open: string; now_ms: number }) {
         <a href="#history/runs" aria-current={kind === 'runs' ? 'page' : undefined}>Runs</a>
         <a href="#history/alerts" aria-current={kind === 'alerts' ? 'page' : undefined}>Alerts</a>
       </nav>
-      {kind === 'missions' && <MissionHistory now_ms={now_ms} />}
+      {kind === 'missions' && (open.startsWith(kMission)
+        ? <OneMission key={open} name={open.slice(kMission.length)} live={live} now_ms={now_ms} />
+        : <MissionHistory now_ms={now_ms} />)}
       {kind === 'commands' && <CommandHistory now_ms={now_ms} />}
       {kind === 'runs' && <RunList now_ms={now_ms} />}
       {kind === 'alerts' && <AlertHistory now_ms={now_ms} />}
