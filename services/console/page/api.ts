@@ -217,7 +217,12 @@ export async function forget(robot: string): Promise<Answer> {
 // With what it says of each robot, which may change.
 export type StopAnswer = Answer & { robots: { robot: string; answered: boolean; obeys: boolean }[] };
 
+// What is told to several robots, one after the other, ends where a stop was said meanwhile.
+let stops = 0;
+export const stopsSaid = () => stops;
+
 export async function stopOne(robot: string): Promise<StopAnswer> {
+  ++stops;
   try {
     const { status, json } = await post(`/api/robots/${robot}/stop`, {});
     if (json.error) return { ok: false, text: `${robot}: ${json.error}`, robots: [] };
@@ -229,6 +234,7 @@ export async function stopOne(robot: string): Promise<StopAnswer> {
 }
 
 export async function stopAll(): Promise<StopAnswer> {
+  ++stops;
   try {
     const { status, json } = await post('/api/all/stop', {});
     if (json.error) return { ok: false, text: json.error, robots: [] };

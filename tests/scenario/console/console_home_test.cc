@@ -1,5 +1,6 @@
 // The console's home on a desk's screen, in Chromium.
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "tests/scenario/console/console_fleet.h"
@@ -9,7 +10,10 @@ namespace trailcast::test {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
+
+const std::string kSelected = "//section[@aria-label='Selected robots']";
 
 class ConsoleHomeTest : public ConsoleFleetTest {
  protected:
@@ -24,6 +28,36 @@ class ConsoleHomeTest : public ConsoleFleetTest {
     StartConsole();
     ASSERT_TRUE(WaitForState("available")) << State().dump(2);
   }
+  // Besides robot1, with a store of its own.
+  void AlsoPutOnDuty(const std::string& name) {
+    others_.push_back(Robot(name, {"--picture-rate", "10"}));
+    others_.push_back(Serve(name, name + "-duty", {}, name + ".db"));
+    ASSERT_TRUE(others_.back()->WaitForOutput("available as")) << others_.back()->output();
+  }
+  std::string StateOf(const std::string& name) {
+    const json state = State();
+    for (const json& robot : state.value("robots", json::array())) {
+      if (robot["name"] == name) return robot["state"];
+    }
+    return "";
+  }
+  bool WaitForStateOf(const std::string& name, const std::string& state) {
+    return WaitUntil([&] { return StateOf(name) == state; });
+  }
+  // The robots that are sent along the hall, as servers keep it.
+  std::set<std::string> Sent() {
+    std::set<std::string> robots;
+    const json found = Get("/api/missions?route=hall");
+    for (const json& mission : found["missions"])
+      robots.insert(mission["robot"].get<std::string>());
+    return robots;
+  }
+  static void ClickOnRow(Browser& browser, const std::string& robot, const std::string& key) {
+    (void)browser.Run("document.querySelector('#robot-" + robot +
+                      " > a').dispatchEvent("
+                      "new MouseEvent('click', {bubbles: true, cancelable: true, " +
+                      key + ": true}))");
+  }
   int Send(const std::string& id, const std::string& orders) {
     return Post("/api/robots/robot1/missions", {{"orders", orders}, {"id", id}}).status;
   }
@@ -37,6 +71,8 @@ class ConsoleHomeTest : public ConsoleFleetTest {
   static bool WaitForBar(Browser& browser, const std::string& mission, const std::string& text) {
     return WaitUntil([&] { return Bar(browser, mission).find(text) != std::string::npos; });
   }
+
+  std::vector<std::unique_ptr<Process>> others_;  // a robot, its agent, and so on
 };
 
 TEST_F(ConsoleHomeTest, TheDaysMissionsAreBarsOfWhichEachOpensItsMission) {
@@ -82,6 +118,53 @@ TEST_F(ConsoleHomeTest, TheDaysMissionsAreBarsOfWhichEachOpensItsMission) {
   ASSERT_TRUE(browser.WaitForText("wait 600")) << browser.Text();
   EXPECT_EQ(browser.Run("return document.querySelector('.timeline')"), json())
       << "a phone has the list instead";
+}
+
+TEST_F(ConsoleHomeTest, SeveralRobotsAreSelectedAndToldAtOnceAndWhoDoesNotObeyIsNamed) {
+  most_mps_ = "0.06";  // on its way for a minute
+  ASSERT_NO_FATAL_FAILURE(Begin());
+  ASSERT_NO_FATAL_FAILURE(AlsoPutOnDuty("robot2"));
+  ASSERT_NO_FATAL_FAILURE(AlsoPutOnDuty("cart1"));
+  for (const char* robot : {"robot2", "cart1"}) {
+    ASSERT_TRUE(WaitForStateOf(robot, "available")) << State().dump(2);
+  }
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(1280, 1000);
+  browser.Open(Page());
+  ASSERT_TRUE(browser.WaitForText("cart1")) << browser.Text();
+
+  ASSERT_TRUE(browser.Click("//option[. = 'robot (2)']")) << browser.Text();
+  ASSERT_TRUE(browser.Click("//label[contains(., 'Select all')]/input")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("2 robots selected")) << browser.Text();
+  ASSERT_TRUE(browser.Click(kSelected + "//button[contains(., 'Send')]")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Slide to send 2 robots along hall")) << browser.Text();
+  ASSERT_TRUE(browser.Type(kSelected + "//input[@type='range']", kSlide));
+  ASSERT_TRUE(browser.WaitForText("all 2 obeyed.")) << browser.Text();
+  EXPECT_EQ(Sent(), (std::set<std::string>{"robot1", "robot2"})) << State().dump(2);
+
+  ASSERT_TRUE(browser.Click(kSelected + "//button[. = 'Clear']")) << browser.Text();
+  ASSERT_TRUE(browser.Click("//option[. = 'All groups']")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("cart1")) << browser.Text();
+  ClickOnRow(browser, "cart1", "ctrlKey");
+  ASSERT_TRUE(browser.WaitForText("1 robot selected")) << browser.Text();
+  ClickOnRow(browser, "robot2", "shiftKey");
+  ASSERT_TRUE(browser.WaitForText("3 robots selected")) << browser.Text();
+  others_.back()->Signal(SIGKILL);
+  ASSERT_TRUE(WaitForStateOf("cart1", "offline")) << State().dump(2);
+  ASSERT_TRUE(browser.Click(kSelected + "//button[. = 'Pause']")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("2 of 3 obeyed. Did not:")) << browser.Text();
+  EXPECT_THAT(browser.Text(), HasSubstr("cart1: did not answer"));
+  browser.Screenshot(Shot("several"));
+  ASSERT_TRUE(browser.Click(kSelected + "//button[. = 'Stop 3']")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("Not stopped: cart1")) << browser.Text();
+  for (const char* robot : {"robot1", "robot2"}) {
+    EXPECT_TRUE(WaitForStateOf(robot, "stopped")) << State().dump(2);
+  }
+  ASSERT_TRUE(browser.Click(kSelected + "//button[. = 'Resume']")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("0 of 3 obeyed. Did not:")) << browser.Text();
+  EXPECT_THAT(browser.Text(),
+              AllOf(HasSubstr("robot1: Does not obey"), HasSubstr("release it first")));
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
-import { memo, useContext, useState, type KeyboardEvent } from 'react';
+import { memo, useCallback, useContext, useRef, useState, type KeyboardEvent, type MouseEvent } from 'react';
 import type { Robot } from '../api';
 import { age } from '../fleet';
 import { Lost } from '../lost';
 import { useMay } from '../me';
 import { Glyph, capital, mayMove } from '../robot/state';
 import { StopButton } from '../stop';
+import { Several } from './several';
 
 const kLow_percent = 20;
 
@@ -37,11 +38,26 @@ export function placeText(robot: Robot): string {
   return robot.route;
 }
 
-const Row = memo(function Row({ robot, chosen, stops, seen, onStop }: {
+// Robots do not tell their group. Those that are numbered alike are one, as "cart-1" and "cart-2" are.
+export const groupOf = (name: string) => name.replace(/[-_.]?\d+$/, '');
+
+function groupsOf(robots: Robot[]): [string, number][] {
+  const counts = new Map<string, number>();
+  for (const { name } of robots) counts.set(groupOf(name), (counts.get(groupOf(name)) ?? 0) + 1);
+  const groups = [...counts].filter(([, count]) => count > 1);
+  return groups.length > 0 && counts.size > 1 ? groups.sort(([one], [other]) => one.localeCompare(other)) : [];
+}
+
+// A robot is toggled alone, or selected with all rows up to the one that was toggled before.
+type Select = (robot: string, range: boolean) => void;
+
+const Row = memo(function Row({ robot, chosen, selected, stops, seen, onSelect, onStop }: {
   robot: Robot;
   chosen: boolean;
+  selected: boolean;
   stops: boolean;
   seen: string;
+  onSelect: Select;
   onStop: (robot: string) => void;
 }) {
   const lost = useContext(Lost);
@@ -49,9 +65,26 @@ const Row = memo(function Row({ robot, chosen, stops, seen, onStop }: {
   const doing = robot.mission?.orders ?? '';
   const second = [place, doing].filter((text) => text !== '').join(' – ');
   const battery = robot.battery_percent;
+  const selects = stops && robot.role === 'follower';
+  const click = (event: MouseEvent) => {
+    if (!selects || !(event.ctrlKey || event.metaKey || event.shiftKey)) return;
+    event.preventDefault();
+    onSelect(robot.name, event.shiftKey);
+  };
+  const press = (event: KeyboardEvent) => {
+    if (!selects || event.key !== ' ') return;
+    event.preventDefault();
+    onSelect(robot.name, event.shiftKey);
+  };
   return (
-    <li id={`robot-${robot.name}`} className={`robot-row ${robot.state.replace(' ', '-')}${chosen ? ' chosen' : ''}${robot.heard ? '' : ' unheard'}`}>
-      <a href={`#fleet/${robot.name}`} aria-current={chosen ? 'true' : undefined}>
+    <li id={`robot-${robot.name}`} className={`robot-row ${robot.state.replace(' ', '-')}${chosen ? ' chosen' : ''}${selected ? ' selected' : ''}${robot.heard ? '' : ' unheard'}`}>
+      {selects && (
+        <label className="tick" title="Select; also Ctrl or Shift and a click, or the space bar">
+          <input type="checkbox" tabIndex={-1} aria-label={`Select ${robot.name}`} checked={selected}
+            onChange={(event) => onSelect(robot.name, (event.nativeEvent as unknown as { shiftKey?: boolean }).shiftKey === true)} />
+        </label>
+      )}
+      <a href={`#fleet/${robot.name}`} aria-current={chosen ? 'true' : undefined} onClick={click} onKeyDown={press}>
         <Glyph state={robot.state} />
         <span className="first"><strong>{robot.name}</strong> <span className="state">{lost ? 'Last: ' : ''}{capital(robot.state)}{seen}</span></span>
         <span className="second">{second || robot.detail || '–'}</span>
@@ -59,7 +92,7 @@ const Row = memo(function Row({ robot, chosen, stops, seen, onStop }: {
           {battery !== null && <>{battery < kLow_percent && '⚠ '}{battery} %<span className="hidden"> battery</span></>}
         </span>
       </a>
-      {stops && robot.role === 'follower' && <StopButton robot={robot.name} moves={mayMove(robot)} small onClick={() => onStop(robot.name)} />}
+      {selects && <StopButton robot={robot.name} moves={mayMove(robot)} small onClick={() => onStop(robot.name)} />}
     </li>
   );
 });
@@ -84,11 +117,34 @@ export function RobotRows({ robots, settled, chosen, now_ms, onStop }: {
   const [kind, setKind] = useState('all');
   const [order, setOrder] = useState('name');
   const [words, setWords] = useState('');
+  const [wanted, setGroup] = useState('');
+  const [names, setNames] = useState<ReadonlySet<string>>(new Set());
   const stops = useMay('operate');
+  const groups = groupsOf(robots);
+  const group = groups.some(([name]) => name === wanted) ? wanted : '';
   const found = robots.filter((robot) => {
     const text = `${robot.name} ${robot.state} ${robot.route} ${robot.mission?.orders ?? ''}`.toLowerCase();
-    return kinds[kind].has(robot) && words.toLowerCase().split(/\s+/).every((word) => text.includes(word));
+    return kinds[kind].has(robot) && (group === '' || groupOf(robot.name) === group) && words.toLowerCase().split(/\s+/).every((word) => text.includes(word));
   }).sort(orders[order].compare);
+  const selectable = found.filter((robot) => robot.role === 'follower').map(({ name }) => name);
+  const selected = stops ? robots.filter((robot) => names.has(robot.name)) : [];
+  const shown = selectable.filter((name) => names.has(name)).length;
+  const rows = useRef({ listed: selectable, last: '' });
+  rows.current.listed = selectable;
+  const select = useCallback<Select>((robot, range) => {
+    const { listed, last } = rows.current;
+    const ends = [listed.indexOf(last), listed.indexOf(robot)].sort((one, other) => one - other);
+    const between = range && ends[0] >= 0 ? listed.slice(ends[0], ends[1] + 1) : [];
+    rows.current.last = robot;
+    setNames((had) => {
+      if (between.length > 0) return new Set([...had, ...between]);
+      const now = new Set(had);
+      if (!now.delete(robot)) now.add(robot);
+      return now;
+    });
+  }, []);
+  const selectAll = () => setNames((had) => (shown === selectable.length
+    ? new Set([...had].filter((name) => !selectable.includes(name))) : new Set([...had, ...selectable])));
   return (
     <section className="pane robots" aria-label="Robots">
       <header>
@@ -107,6 +163,21 @@ export function RobotRows({ robots, settled, chosen, now_ms, onStop }: {
           if (name !== 'all' && name !== kind && count === 0) return null;
           return <button key={name} aria-pressed={kind === name} onClick={() => setKind(name)}>{label} <span>{count}</span></button>;
         })}
+        {groups.length > 0 && (
+          <label><span className="hidden">Group</span>
+            <select value={group} onChange={(event) => setGroup(event.target.value)}>
+              <option value="">All groups</option>
+              {groups.map(([name, count]) => <option key={name} value={name}>{name} ({count})</option>)}
+            </select>
+          </label>
+        )}
+        {stops && selectable.length > 1 && (
+          <label className="all-shown">
+            <input type="checkbox" checked={shown === selectable.length} onChange={selectAll}
+              ref={(box) => { if (box) box.indeterminate = shown > 0 && shown < selectable.length; }} />
+            Select all<span className="hidden"> shown</span>
+          </label>
+        )}
       </div>
       {!settled && robots.length === 0 && <p className="note">Searching for robots …</p>}
       {settled && robots.length === 0 && (
@@ -116,12 +187,13 @@ export function RobotRows({ robots, settled, chosen, now_ms, onStop }: {
         </p>
       )}
       {robots.length > 0 && found.length === 0 && <p className="note">No robot is so.</p>}
-      <ul onKeyDown={step}>
+      <ul className={selected.length > 0 ? 'selecting' : ''} onKeyDown={step}>
         {found.map((robot) => (
-          <Row key={robot.name} robot={robot} chosen={robot.name === chosen} stops={stops} onStop={onStop}
+          <Row key={robot.name} robot={robot} chosen={robot.name === chosen} selected={names.has(robot.name)} stops={stops} onSelect={select} onStop={onStop}
             seen={robot.last_heard_unix_ms === null ? '' : `, seen ${age(now_ms - robot.last_heard_unix_ms)} ago`} />
         ))}
       </ul>
+      {selected.length > 0 && <Several robots={selected} hidden={selected.length - shown} onClear={() => setNames(new Set())} />}
     </section>
   );
 }

@@ -1,5 +1,5 @@
 import { memo, useEffect, useState } from 'react';
-import { forget, tell, type Answer, type Order, type Robot } from '../api';
+import { forget, send, tell, type Answer, type Order, type Robot } from '../api';
 import { Copy } from '../copy';
 import { age } from '../fleet';
 import { Glance } from './glance';
@@ -98,7 +98,7 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
       <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>
-      {obeys && open === 'send' && may.send && <Send robot={robot.name} onAnswer={sent} />}
+      {obeys && open === 'send' && may.send && <Send who={robot.name} onGo={async (orders) => { sent(null); sent(await send(robot.name, orders)); }} />}
       {obeys && open === 'send' && may.send && <Slide label={`Slide to send ${robot.name} home`} onDone={() => order('home')} />}
       {obeys && open === 'teach' && may.teach && <Teach robot={robot.name} onAnswer={sent} />}
       {looking && seesIt && robot.teaches && <Glance robot={robot} brief />}

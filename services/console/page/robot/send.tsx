@@ -1,5 +1,5 @@
 import { useEffect, useId, useState } from 'react';
-import { get, send, type Answer, type RoutePage } from '../api';
+import { get, type RoutePage } from '../api';
 
 // What moves a robot takes a whole slide, or as many presses of an arrow key: a tap on the far end
 // does not do.
@@ -46,10 +46,7 @@ export function SpeedChoice({ id, speed, onChange }: { id?: string; speed: strin
   );
 }
 
-export function Send({ robot, onAnswer }: {
-  robot: string;
-  onAnswer: (answer: Answer | null) => void;
-}) {
+export function Send({ who, onGo }: { who: string; onGo: (orders: string) => void }) {
   const [prefix, setPrefix] = useState('');
   const [found, setFound] = useState<{ of: string; page: RoutePage | string } | null>(null);
   const [chosen, setChosen] = useState('');
@@ -77,10 +74,6 @@ export function Send({ robot, onAnswer }: {
   const sameName = route && routes.filter((each) => each.name === route.name).length > 1;
   const name = route && (sameName ? route.route : route.name);
   const orders = `follow ${name}` + (laps > 1 ? ` laps ${laps}` : '') + (speed !== '1' ? ` speed ${speed}` : '');
-  const go = async () => {
-    onAnswer(null);
-    onAnswer(await send(robot, orders));
-  };
   return (
     <div className="send">
       {(prefix || total > routes.length) && (
@@ -111,7 +104,7 @@ export function Send({ robot, onAnswer }: {
             </label>
           </div>
           {laps > 1 && <p className="note">Several laps need a route whose end is its beginning.</p>}
-          <Slide label={`Slide to send ${robot} along ${route.name}`} onDone={go} />
+          <Slide label={`Slide to send ${who} along ${route.name}`} onDone={() => onGo(orders)} />
         </>
       )}
     </div>
