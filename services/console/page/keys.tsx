@@ -21,7 +21,7 @@ function commandsFor(robots: Robot[], mayOperate: boolean, onStopAll: () => void
     }
     commands.push({ text: `Show ${robot.name}`, run: go(`fleet/${robot.name}`) }, { text: `Open page of ${robot.name}`, run: go(`robot/${robot.name}`) });
   }
-  for (const [hash, name] of [['fleet', 'Home'], ['cameras', 'Cameras'], ['network', 'Network'], ['routes', 'Routes'], ['history', 'History'], ['history/alerts', 'Alerts']]) {
+  for (const [hash, name] of [['fleet', 'Home'], ['cameras', 'Cameras'], ['network', 'Network'], ['routes', 'Routes'], ['history', 'History'], ['history/alerts', 'Alerts'], ['wall', 'Wall screen']]) {
     commands.push({ text: `Go to ${name}`, run: go(hash) });
   }
   for (const theme of ['system', 'light', 'dark'] as const) commands.push({ text: `Colours: ${theme}`, run: () => choose(theme) });

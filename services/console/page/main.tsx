@@ -6,6 +6,7 @@ import { stopAll, stopOne, tell, type Order, type Robot, type StopAnswer } from 
 import { remember } from './doubts';
 import { age, useFleet } from './fleet';
 import { Home, useChosen } from './home/home';
+import { Wall, WallNow } from './home/wall';
 import { Keys } from './keys';
 import { Doors, OnlyLooks, WhoIsIn } from './login';
 import { Lost } from './lost';
@@ -93,8 +94,9 @@ function Page() {
     remember(fleet?.robots ?? []);
     trace(fleet?.robots ?? []);
   }, [fleet]);
+  const onWall = page === 'wall';
   const told = unacknowledged(alerts);
-  const shown = page === 'robot' ? open : { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', history: 'History' }[page];
+  const shown = page === 'robot' ? open : { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', history: 'History', wall: 'Wall' }[page];
   useEffect(() => {
     document.title = `${lost ? '⚠ Connection lost' : `${told > 0 ? `(${told}) ` : ''}${shown}`} – Trailcast`;
   }, [told, lost, shown]);
@@ -120,11 +122,11 @@ function Page() {
     <Lost.Provider value={lost}>
       <div className="pinned" ref={pinned}>
         <header className="top">
-          <h1>Trailcast</h1>
-          <Pages page={page} />
-          <ThemeChoice />
-          <Keys robots={robots} chosen={page === 'fleet' || page === 'robot' ? chosen?.name ?? '' : ''} mayOperate={mayOperate} onStop={onStop} onStopAll={onStopAll} onTell={onTell} />
-          <WhoIsIn />
+          <h1>{onWall ? <a href="#fleet">Trailcast</a> : 'Trailcast'}</h1>
+          {onWall ? <WallNow robots={robots} now_ms={now_ms} /> : <Pages page={page} />}
+          {!onWall && <ThemeChoice />}
+          {!onWall && <Keys robots={robots} chosen={page === 'fleet' || page === 'robot' ? chosen?.name ?? '' : ''} mayOperate={mayOperate} onStop={onStop} onStopAll={onStopAll} onTell={onTell} />}
+          {!onWall && <WhoIsIn />}
           {mayOperate && <StopButton moves={lost || robots.some(mayMove)} onClick={onStopAll} />}
         </header>
         {lost && (
@@ -139,24 +141,27 @@ function Page() {
           {answer && (answer.ok ? '' : '⚠ ') + answer.text}
         </p>
       </div>
-      <OnlyLooks />
+      {!onWall && <OnlyLooks />}
       {settled && !lost && !servers.some((server) => server.heard) && (
         <p className="banner" role="alert">
           ⚠ Route server offline: there are no routes to choose from, nothing is kept, and only robots in
           direct reach hear this console.
         </p>
       )}
-      <AlertBar alerts={alerts} now_ms={now_ms}
-        told={robots.filter((robot) => robot.unanswered_stop_unix_ms !== null).map((robot) => robot.name)} />
+      {!onWall && (
+        <AlertBar alerts={alerts} now_ms={now_ms}
+          told={robots.filter((robot) => robot.unanswered_stop_unix_ms !== null).map((robot) => robot.name)} />
+      )}
       <main className={`${page}${lost ? ' stale' : ''}`}>
         {page === 'fleet' && <Home fleet={fleet} open={open} chosen={chosen} settled={settled} lost_ms={lost_ms} now_ms={now_ms} onStop={onStop} />}
+        {onWall && <Wall fleet={fleet} settled={settled} now_ms={now_ms} />}
         {page === 'robot' && <RobotPage key={open} fleet={fleet} name={open} settled={settled} lost_ms={lost_ms} now_ms={now_ms} />}
         {page === 'cameras' && <Cameras robots={robots} settled={settled} onStop={onStop} />}
         {page === 'network' && <NetworkPage robots={robots} live={fleet?.routes ?? []} />}
         {page === 'routes' && <Routes open={open} now_ms={now_ms - now_ms % kStep_ms} />}
         {page === 'history' && <History open={open} live={fleet?.missions ?? []} now_ms={now_ms} />}
       </main>
-      <footer>
+      {!onWall && <footer>
         <p id="stop-help">
           Stop holds the robot, even after a restart, until it is released. <strong>Not an emergency
           stop:</strong> a robot that is out of reach drives on. Use the red button on the robot.
@@ -168,9 +173,9 @@ function Page() {
               Route server <strong>{server.name}</strong>: {server.last_heard_unix_ms === null ? 'online' : `offline for ${age(now_ms - server.last_heard_unix_ms)}`}.{' '}
             </span>
           ))}
-          <a href="/api/openapi.yaml">API</a>
+          <a href="#wall">Wall screen</a> · <a href="/api/openapi.yaml">API</a>
         </p>
-      </footer>
+      </footer>}
     </Lost.Provider>
   );
 }

@@ -3,12 +3,13 @@ import { useEffect, useState } from 'react';
 // What stands behind the address's #: "#routes", and "#routes/.." for what is open on that page.
 const pages = { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', history: 'History' };
 
-// A robot's own page has no place in the list.
-export type PageName = keyof typeof pages | 'robot';
+// A robot's own page and a wall's screen have no place in the list.
+const others = ['wall'];
+export type PageName = keyof typeof pages | 'robot' | 'wall';
 
 function here(): { page: PageName; open: string } {
   const [name, open = ''] = window.location.hash.slice(1).split('/');
-  return { page: name in pages || (name === 'robot' && open) ? (name as PageName) : 'fleet', open };
+  return { page: name in pages || (name === 'robot' && open) || others.includes(name) ? (name as PageName) : 'fleet', open };
 }
 
 export function usePage(): { page: PageName; open: string } {

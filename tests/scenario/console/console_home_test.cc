@@ -167,5 +167,45 @@ TEST_F(ConsoleHomeTest, SeveralRobotsAreSelectedAndToldAtOnceAndWhoDoesNotObeyIs
               AllOf(HasSubstr("robot1: Does not obey"), HasSubstr("release it first")));
 }
 
+TEST_F(ConsoleHomeTest, AWallsScreenShowsWhatIsThereAndHasNoButtonButStopAll) {
+  most_mps_ = "0.06";
+  ASSERT_NO_FATAL_FAILURE(Begin());
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(1920, 1080, true);
+  browser.Open(Page() + "#wall");
+  ASSERT_TRUE(browser.WaitForText("1 available")) << browser.Text();
+  EXPECT_EQ(browser.Run("return [...document.querySelectorAll('button, select, "
+                        "input, summary')]"
+                        ".filter(each => !each.closest('[inert]')).map(each => "
+                        "each.innerText)"),
+            json({"Stop all"}));
+  const json letters_px = browser.Run(
+      "return parseFloat(getComputedStyle(document.querySelector('.wall-rows "
+      ".state')).fontSize)");
+  EXPECT_GE(letters_px, json(40.0)) << "it is read from three metres";
+
+  ASSERT_EQ(Send("trip", "follow hall"), 200);
+  ASSERT_TRUE(browser.WaitForText("1 driving")) << browser.Text();
+  ASSERT_EQ(Post("/api/robots/robot1/pause", {{"reason", "somebody walks here"}}).status, 200);
+  ASSERT_TRUE(WaitUntil([&] {
+    const json alerts = browser.Run(
+        "const alerts = document.querySelector('.wall-alerts');"
+        "return alerts ? alerts.innerText : ''");
+    return alerts.is_string() &&
+           alerts.get<std::string>().find("somebody walks") != std::string::npos;
+  })) << browser.Text();
+  browser.Screenshot(Shot("wall-dark"));
+  ASSERT_TRUE(browser.Click("//button[. = 'Stop all']")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("1 stopped")) << browser.Text();
+  browser.Look(1920, 1080);
+  browser.Screenshot(Shot("wall"));
+
+  console_->Signal(SIGKILL);
+  ASSERT_TRUE(browser.WaitForText("Connection lost: Stop will not reach robots")) << browser.Text();
+  EXPECT_TRUE(browser.WaitForText("Last: Stopped")) << browser.Text();
+  browser.Screenshot(Shot("wall-lost"));
+}
+
 }  // namespace
 }  // namespace trailcast::test

@@ -9,7 +9,7 @@ const kMostAbove = 3;
 const kEvery_ms = 5000;
 
 const urgency = (alert: Alert) => (alert.acknowledged_by !== null ? 2 : alert.severity === 'alarm' ? 0 : 1);
-const byUrgency = (one: Alert, other: Alert) => urgency(one) - urgency(other) || other.since_unix_ms - one.since_unix_ms;
+export const byUrgency = (one: Alert, other: Alert) => urgency(one) - urgency(other) || other.since_unix_ms - one.since_unix_ms;
 
 export const unacknowledged = (alerts: Alert[]) => alerts.filter((alert) => alert.acknowledged_by === null).length;
 

@@ -18,8 +18,8 @@ const kinds: Record<string, { label: string; has: (robot: Robot) => boolean }> =
   offline: { label: 'Offline', has: (robot) => !robot.heard },
 };
 
-const byName = (one: Robot, other: Robot) => one.name.localeCompare(other.name, undefined, { numeric: true });
-const rank = (robot: Robot) =>
+export const byName = (one: Robot, other: Robot) => one.name.localeCompare(other.name, undefined, { numeric: true });
+export const rank = (robot: Robot) =>
   (robot.needs_person ? 0 : robot.state === 'driving' || robot.state === 'teaching' ? 1 : robot.heard ? 2 : 3);
 const orders: Record<string, { label: string; compare: (one: Robot, other: Robot) => number }> = {
   name: { label: 'Name', compare: byName },

@@ -26,7 +26,7 @@ function kept(): Layer | null {
 }
 
 // What shows most of where robots are: the plan, if routes lie upon it, or how routes are joined.
-function useBest(asked: boolean): Layer | null {
+export function useBest(asked: boolean): Layer | null {
   const [best, setBest] = useState<Layer | null>(null);
   useEffect(() => {
     if (!asked) return;
@@ -42,7 +42,7 @@ function useBest(asked: boolean): Layer | null {
   return best;
 }
 
-function NetworkLive({ robots, live, way, pin, onPlace }: {
+export function NetworkLive({ robots, live, way, pin, onPlace }: {
   robots: Robot[];
   live: Route[];
   way: Way | null;
