@@ -120,6 +120,35 @@ TEST_F(ConsoleHomeTest, TheDaysMissionsAreBarsOfWhichEachOpensItsMission) {
       << "a phone has the list instead";
 }
 
+TEST_F(ConsoleHomeTest, AnEmptyPageLeadsToAFirstRobotRouteAndMission) {
+  StartConsole();
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(1280, 800);
+  browser.Open(Page());
+  ASSERT_TRUE(browser.WaitForText("First steps")) << browser.Text();
+  EXPECT_THAT(browser.Text(), HasSubstr("trailcast-agent serve"));
+  const auto done = [&] {
+    return browser.Run("return document.querySelectorAll('.guide li.done').length");
+  };
+  EXPECT_EQ(done(), json(0));
+  browser.Screenshot(Shot("first-steps"));
+  ASSERT_NO_FATAL_FAILURE(PutOnDuty());
+  ASSERT_TRUE(browser.WaitForText("robot1 is heard.")) << browser.Text();
+  // An agent that is on duty has its store to itself.
+  Teach("scout.db");
+  const Ended kept = RunAgent({"deliver", "--store", Path("scout.db"), "--name", "scout"});
+  ASSERT_EQ(kept.status, 0) << kept.output;
+  ASSERT_TRUE(browser.WaitForText("Route servers keep 1 route.")) << browser.Text();
+  EXPECT_EQ(done(), json(2)) << browser.Text();
+  ASSERT_EQ(Send("first", "follow hall"), 200);
+  ASSERT_TRUE(WaitUntil([&] { return done() == json(3); })) << browser.Text();
+  ASSERT_TRUE(browser.Click("//button[. = 'Hide']"));
+  EXPECT_TRUE(WaitUntil([&] {
+    return browser.Run("return document.querySelector('.guide')") == json();
+  })) << browser.Text();
+}
+
 TEST_F(ConsoleHomeTest, SeveralRobotsAreSelectedAndToldAtOnceAndWhoDoesNotObeyIsNamed) {
   most_mps_ = "0.06";  // on its way for a minute
   ASSERT_NO_FATAL_FAILURE(Begin());

@@ -2,6 +2,7 @@ import { useEffect, useRef, useSyncExternalStore } from 'react';
 import type { Fleet, Robot } from '../api';
 import { Missions } from '../missions';
 import { RobotCard } from '../robot/robot';
+import { Guide } from './guide';
 import { RobotRows } from './rows';
 import { SiteLive } from './site-live';
 import { Timeline } from './timeline';
@@ -43,6 +44,8 @@ export function Home({ fleet, open, chosen, settled, lost_ms, now_ms, onStop }: 
     if (isThere && !desk.matches) pane.current?.scrollIntoView({ block: 'start' });
   }, [open, isThere]);
   return (
+    <>
+    <Guide fleet={fleet} settled={settled} />
     <div className="home">
       <RobotRows robots={robots} settled={settled} chosen={chosen?.name ?? ''} now_ms={now_ms} onStop={onStop} />
       <section className="pane one" aria-label="Chosen robot" ref={pane}>
@@ -61,5 +64,6 @@ export function Home({ fleet, open, chosen, settled, lost_ms, now_ms, onStop }: 
       </div>
       {wide && <Timeline fleet={fleet} lost_ms={lost_ms} now_ms={now_ms} />}
     </div>
+    </>
   );
 }

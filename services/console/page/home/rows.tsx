@@ -182,8 +182,7 @@ export function RobotRows({ robots, settled, chosen, now_ms, onStop }: {
       {!settled && robots.length === 0 && <p className="note">Searching for robots …</p>}
       {settled && robots.length === 0 && (
         <p className="note">
-          No robot is heard. One that is on duty (<code>trailcast-agent serve</code>) shows up here by itself. Then choose it, and
-          <strong> Teach …</strong> its first route; <strong>Send …</strong> sends any robot along it.
+          No robot is heard. One that is on duty (<code>trailcast-agent serve</code>) shows up here by itself.
         </p>
       )}
       {robots.length > 0 && found.length === 0 && <p className="note">No robot is so.</p>}
