@@ -61,7 +61,7 @@ class ConsoleHomeTest : public ConsoleFleetTest {
   int Send(const std::string& id, const std::string& orders) {
     return Post("/api/robots/robot1/missions", {{"orders", orders}, {"id", id}}).status;
   }
-  // What the timeline says of a mission, after its state; empty: it has no bar.
+  // Returns what the timeline says of a mission, after its state; empty if it has no bar.
   static std::string Bar(Browser& browser, const std::string& mission) {
     const json bar = browser.Run("const bar = document.querySelector(\".bar[href$=':" + mission +
                                  "']\");"
@@ -135,7 +135,7 @@ TEST_F(ConsoleHomeTest, AnEmptyPageLeadsToAFirstRobotRouteAndMission) {
   browser.Screenshot(Shot("first-steps"));
   ASSERT_NO_FATAL_FAILURE(PutOnDuty());
   ASSERT_TRUE(browser.WaitForText("robot1 is heard.")) << browser.Text();
-  // An agent that is on duty has its store to itself.
+  // An available agent has its store to itself.
   Teach("scout.db");
   const Ended kept = RunAgent({"deliver", "--store", Path("scout.db"), "--name", "scout"});
   ASSERT_EQ(kept.status, 0) << kept.output;

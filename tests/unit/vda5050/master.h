@@ -15,7 +15,7 @@ namespace trailcast::vda5050 {
 
 using nlohmann::json;
 
-// What a fleet manager sends, in both versions.
+// Makes what a fleet manager sends, in both versions.
 class Master {
  public:
   explicit Master(Identity identity) : identity_(std::move(identity)) {}

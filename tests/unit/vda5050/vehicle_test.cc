@@ -23,7 +23,8 @@ using testing::Not;
 const AgentId kRobot("robot1");
 const AgentId kSelf("vda5050-1");
 
-// A robot on duty, and a fleet manager. Whatever the robot tells is held against the schema.
+// There are an available robot and a fleet manager. Whatever the robot tells is held against the
+// schema.
 class VehicleTest : public testing::TestWithParam<Version> {
  protected:
   VehicleTest() {
