@@ -134,7 +134,10 @@ class Ros2Driver {
     // The topic and the policy of a peer whose quality of service is not compatible with ours;
     // empty if there is none.
     std::string mismatch;
-    std::string tried;           // for people: the network interfaces that were searched
+    std::string tried;  // for people: the network interfaces that were searched
+    // For people: the participants of the domain that show no topics at all, as those with DDS
+    // Security (SROS 2) do.
+    std::vector<std::string> closed{};
     int scanners = 0;            // publishers of the scan topic
     std::vector<int> rangers{};  // publishers of each range topic
     int imus = 0;                // publishers of the IMU topic

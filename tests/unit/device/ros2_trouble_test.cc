@@ -23,5 +23,19 @@ TEST(Ros2Trouble, WhoseQualityOfServiceDoesNotMatchIsToldWhatToSet) {
   EXPECT_THAT(WhoIsMissing(topics, peers, {}), names_it);
 }
 
+TEST(Ros2Trouble, ARobotWithDdsSecurityIsToldHowToBeMet) {
+  dds::Ros2Options topics;
+  topics.robot = "/robot1";
+  dds::Ros2Driver::Peers peers;
+  EXPECT_THAT(WhoIsMissing(topics, peers, {}), Not(HasSubstr("Security")));
+  peers.closed = {"participant 1:2:3, at 10.0.0.7:7411"};
+  EXPECT_THAT(WhoIsMissing(topics, peers, {}),
+              AllOf(HasSubstr("participant 1:2:3, at 10.0.0.7:7411 is there"),
+                    HasSubstr("ROS_SECURITY_ENABLE=false")));
+  peers.cameras = peers.odometers = 1;
+  EXPECT_THAT(WhoIsMissing(topics, peers, {}), Not(HasSubstr("Security")))
+      << "the robot is another one";
+}
+
 }  // namespace
 }  // namespace trailcast::agent

@@ -13,6 +13,14 @@ std::string MismatchIfAny(const dds::Ros2Driver::Peers& peers) {
       peers.mismatch);
 }
 
+std::string ClosedIfAny(const dds::Ros2Driver::Peers& peers) {
+  if (peers.closed.empty()) return {};
+  return fmt::format(
+      "; {} {} there without showing a topic, as nodes with DDS Security (SROS 2) are: start the "
+      "robot's nodes without it (ROS_SECURITY_ENABLE=false)",
+      fmt::join(peers.closed, ", "), peers.closed.size() == 1 ? "is" : "are");
+}
+
 }  // namespace
 
 std::string TroubleText(const dds::Ros2Options& topics, const dds::Ros2Driver::Peers& peers,
@@ -68,6 +76,7 @@ std::string WhoIsMissing(const dds::Ros2Options& topics, const dds::Ros2Driver::
   }
   text += MismatchIfAny(peers);
   if (peers.cameras == 0 && peers.odometers == 0 && peers.bases == 0) {
+    text += ClosedIfAny(peers);
     text += fmt::format("; looked on {}", peers.tried);
   }
   return fmt::format("{} (ROS domain {}); check the robot's drivers, its namespace and domain",

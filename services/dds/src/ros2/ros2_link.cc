@@ -10,6 +10,7 @@
 #include "services/dds/src/domain/domain_config.h"
 #include "services/dds/src/domain/user_data.h"
 #include "services/dds/src/entities.h"
+#include "services/dds/src/ros2/closed_participants.h"
 #include "services/dds/src/ros2/ros2_network.h"
 #include "services/dds/src/ros2/ros2_speaker.h"
 #include "services/dds/src/ros2/ros2_wire.h"
@@ -167,7 +168,8 @@ struct DriverState {
 
 class Ros2DdsDriver final : public Ros2Driver {
  public:
-  explicit Ros2DdsDriver(DriverState state) : state_(std::move(state)) {}
+  explicit Ros2DdsDriver(DriverState state, ClosedParticipants closed)
+      : state_(std::move(state)), closed_(std::move(closed)) {}
   std::vector<Ros2Sensed> Take(std::chrono::milliseconds max_wait) override;
   Result<void> Publish(const Ros2Command& command) override;
   [[nodiscard]] Peers peers() const override;
@@ -183,6 +185,7 @@ class Ros2DdsDriver final : public Ros2Driver {
   mutable std::mutex mutex_;  // guards everything below
   Ros2Speaker image_speaker_;
   Ros2Speaker odometry_speaker_;
+  mutable ClosedParticipants closed_;
   int unusable_odometry_ = 0;
   std::string unfit_odometry_;
 };
@@ -238,10 +241,13 @@ Result<std::unique_ptr<Ros2Driver>> Ros2Driver::Open(const Ros2Options& options)
   auto command =
       node->Speak(CommandType(options.command_type), options.CommandTopic(), ReliableQos(1));
   if (!command) return tl::unexpected(command.error());
+  auto closed = ClosedParticipants::Create(node->participant);
+  if (!closed) return tl::unexpected(closed.error());
   return std::make_unique<Ros2DdsDriver>(
       DriverState{options, std::move(network), *std::move(node), *std::move(image),
                   std::move(odometry), std::move(scan), std::move(ranges), std::move(imu),
-                  std::move(battery), std::move(others_commands), *std::move(command)});
+                  std::move(battery), std::move(others_commands), *std::move(command)},
+      *std::move(closed));
 }
 
 bool Ros2DdsDriver::Counts(Ros2Speaker& speaker, const Reader& reader,
@@ -337,9 +343,10 @@ Ros2Driver::Peers Ros2DdsDriver::peers() const {
   std::vector<std::string> mismatches{
       Mismatch(s.options.ImageTopic(), s.image.refused_policy()),
       Mismatch(s.options.CommandTopic(), s.command.refused_policy())};
+  const std::lock_guard guard(mutex_);
+  peers.closed = closed_.Look();
   if (s.odometry) {
     peers.odometers = s.odometry->matched();
-    const std::lock_guard guard(mutex_);
     peers.unusable_odometry = unusable_odometry_;
     peers.unfit_odometry = unfit_odometry_;
     mismatches.push_back(Mismatch(s.options.OdometryTopic(), s.odometry->refused_policy()));
