@@ -22,6 +22,14 @@ constexpr milliseconds kWait{20};
 // A server answers well within this; otherwise people are told that none does.
 constexpr milliseconds kServerPatience{3000};
 constexpr milliseconds kServerAsksWithin{1500};
+// The first segments show that teaching works. After them one now and then shows that it goes on.
+constexpr std::uint32_t kFirstTold = 5;
+constexpr std::uint32_t kThenTold = 20;
+
+spdlog::level::level_enum LevelOf(SegmentIndex index, SegmentIndex first) {
+  const bool told = index.value() < first.value() + kFirstTold || index.value() % kThenTold == 0;
+  return told ? spdlog::level::info : spdlog::level::debug;
+}
 
 // An agent that waits for missions also follows, and operators command it.
 exchange::AgentStatus ScoutStatus(const ScoutLinkOptions& options) {
@@ -197,9 +205,10 @@ Result<void> ScoutLink::StoreOffered() {
     }
     if (auto added = outbox_.Add(*key_, segment); !added) return added;
     const route::RouteInfo& info = outbox_.info(*key_);
-    spdlog::info("segment {} of '{}': {:.2f} m, {} features; {} bytes stored so far",
-                 segment.index.value(), info.name, segment.length_m, segment.features.size(),
-                 info.bytes);
+    spdlog::log(LevelOf(segment.index, first_index()),
+                "segment {} of '{}': {} features; {:.2f} m and {} bytes so far",
+                segment.index.value(), info.name, segment.features.size(), info.length_m,
+                info.bytes);
   }
   while (auto report = reports_.TryGet()) latest_ = *report;
   return {};
