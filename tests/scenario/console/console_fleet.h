@@ -7,6 +7,7 @@
 
 #include "tests/scenario/robots.h"
 #include "tests/support/await.h"
+#include "tests/support/described.h"
 #include "tests/support/places.h"
 
 namespace trailcast::test {
@@ -60,6 +61,7 @@ class ConsoleFleetTest : public RobotsTest {
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", port_);
     client.set_read_timeout(20);
+    client.set_logger(console::ExpectAsDescribed());
     return client;
   }
   json Get(const std::string& path) {

@@ -32,6 +32,7 @@ class ConsoleWithKeysTest : public SecuredFleetTest {
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", port_);
     client.set_read_timeout(30);
+    client.set_logger(console::ExpectAsDescribed());
     return client;
   }
   Replied Get(const std::string& path) { return Of(Client().Get(path)); }

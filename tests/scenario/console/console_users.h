@@ -46,6 +46,7 @@ class ConsoleUsersTest : public ConsoleFleetTest {
     client->enable_server_certificate_verification(true);
     client->set_connection_timeout(20);
     client->set_read_timeout(30);
+    client->set_logger(console::ExpectAsDescribed());
     return client;
   }
   struct Replied {

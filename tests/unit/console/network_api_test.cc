@@ -14,9 +14,9 @@
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
+#include "tests/support/described.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/temp_dir.h"
-#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -74,7 +74,7 @@ class NetworkApiTest : public testing::Test {
   }
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
-    ExpectAsDescribed(client);
+    client.set_logger(ExpectAsDescribed());
     client.set_read_timeout(60);
     return client;
   }

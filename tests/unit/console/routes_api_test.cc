@@ -14,10 +14,10 @@
 #include "services/fleet/routes/route_export.h"
 #include "services/image/files.h"
 #include "services/store/route_store.h"
+#include "tests/support/described.h"
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/walk_frames.h"
-#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -116,7 +116,7 @@ class RoutesApiTest : public testing::Test {
   }
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
-    ExpectAsDescribed(client);
+    client.set_logger(ExpectAsDescribed());
     client.set_read_timeout(20);
     return client;
   }

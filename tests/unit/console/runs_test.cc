@@ -14,10 +14,10 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
 #include "tests/support/await.h"
+#include "tests/support/described.h"
 #include "tests/support/recorded/sample_run.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/walk_frames.h"
-#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -58,7 +58,7 @@ class RunsTest : public testing::Test {
   };
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
-    ExpectAsDescribed(client);
+    client.set_logger(ExpectAsDescribed());
     client.set_read_timeout(30);
     return client;
   }

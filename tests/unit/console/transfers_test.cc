@@ -15,10 +15,10 @@
 #include "services/route/digest.h"
 #include "services/store/route_store.h"
 #include "tests/support/await.h"
+#include "tests/support/described.h"
 #include "tests/support/keeper_thread.h"
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
-#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -51,7 +51,7 @@ class TransfersTest : public testing::Test {
 
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
-    ExpectAsDescribed(client);
+    client.set_logger(ExpectAsDescribed());
     client.set_read_timeout(20);
     return client;
   }

@@ -14,9 +14,9 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
 #include "tests/support/await.h"
+#include "tests/support/described.h"
 #include "tests/support/strangers/hostile_client.h"
 #include "tests/support/temp_dir.h"
-#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -60,7 +60,7 @@ class UploadsTest : public testing::TestWithParam<const char*> {
   // Its status, and its body.
   [[nodiscard]] std::pair<int, std::string> Upload() const {
     httplib::Client client("localhost", web_->port());
-    ExpectAsDescribed(client);
+    client.set_logger(ExpectAsDescribed());
     client.set_read_timeout(test::kLongEnough);
     const auto got = client.Post(GetParam(), "no such file", "application/octet-stream");
     return got ? std::pair(got->status, got->body) : std::pair(0, httplib::to_string(got.error()));

@@ -15,9 +15,9 @@
 #include "services/fleet/routes/route_export.h"
 #include "services/program/presence.h"
 #include "tests/support/await.h"
+#include "tests/support/described.h"
 #include "tests/support/strangers/hostile_client.h"
 #include "tests/support/temp_dir.h"
-#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -30,7 +30,7 @@ class WebTest : public testing::Test {
  protected:
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
-    ExpectAsDescribed(client);
+    client.set_logger(ExpectAsDescribed());
     client.set_read_timeout(20);
     return client;
   }

@@ -18,7 +18,7 @@ namespace trailcast::console {
                                                        const httplib::Request& request,
                                                        const httplib::Response& response);
 
-// Checks each answer that this client gets against the console's own description.
-void ExpectAsDescribed(httplib::Client& client);
+// Returns a client's logger that checks each answer against the console's own description.
+[[nodiscard]] httplib::Logger ExpectAsDescribed();
 
 }  // namespace trailcast::console

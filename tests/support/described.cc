@@ -1,4 +1,4 @@
-#include "tests/unit/console/described.h"
+#include "tests/support/described.h"
 
 #include <gtest/gtest.h>
 
@@ -318,7 +318,7 @@ std::vector<std::string> UnlikeDescribed(const json& description, const httplib:
   return checker.TakeWrong();
 }
 
-void ExpectAsDescribed(httplib::Client& client) {
+httplib::Logger ExpectAsDescribed() {
   static const json kDescription = [] {
     for (const File& file : Files()) {
       if (std::string(file.path) == "/api/openapi.yaml") {
@@ -327,11 +327,11 @@ void ExpectAsDescribed(httplib::Client& client) {
     }
     return json();
   }();
-  client.set_logger([](const httplib::Request& request, const httplib::Response& response) {
+  return [](const httplib::Request& request, const httplib::Response& response) {
     for (const std::string& wrong : UnlikeDescribed(kDescription, request, response)) {
       ADD_FAILURE() << "openapi.yaml: " << wrong;
     }
-  });
+  };
 }
 
 }  // namespace trailcast::console
