@@ -41,6 +41,7 @@ struct TrialOptions {
   // place, until they have come a few metres. With 0 it is followed from its beginning to its end.
   int starts = 0;
   bool backwards = false;  // in reverse gear, from the taught path's end to its beginning
+  bool matrix = false;     // so many trials of each of its cells (matrix.h)
   // Each taught route is followed so many times, one follower after the other, while the scenario's
   // change grows from visit to visit. With 0 it is followed once, in the changed place.
   int visits = 0;

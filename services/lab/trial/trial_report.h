@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/lab/trial/matrix.h"
 #include "services/lab/trial/path_judge.h"
 #include "services/lab/trial/scenario.h"
 #include "services/refresh/refresh.h"
@@ -57,7 +58,8 @@ struct TrialRow {
   int visit = 0;                      // from 1; 0 if it is the only one; not in the CSV
   // Its changes to the route for the next visit, if it made any; not in the CSV.
   std::optional<refresh::RefreshCounts> refreshed;
-  std::string reason;  // why it ended, if it did not arrive
+  std::optional<MatrixCell> cell;  // not in the CSV
+  std::string reason;              // why it ended, if it did not arrive
 };
 
 // The summary of all trials. A failed one counts with the distance at which it ended.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "services/lab/sim/core/path.h"
 #include "services/lab/sim/core/world.h"
 #include "services/lab/sim/places/place.h"
+#include "services/lab/trial/matrix.h"
 #include "services/lab/trial/recording/odometry_noise.h"
 #include "services/lab/trial/spoiled_eyes.h"
 #include "services/lab/trial/trial_options.h"
@@ -29,6 +31,7 @@ struct TrialCase {
   bool through_server = false;
   std::string flaw;  // of the follower, one of Flaws(); may be empty
   int start = 0;     // the drawn place where it begins, from 1; 0 for the path's beginning
+  std::optional<MatrixCell> cell{};  // of the matrix, if trials are of one
 };
 
 // Returns how a scout of that method teaches. For the printed methods, segments end by the 50 %

@@ -36,6 +36,7 @@ constexpr const char* kTrialExamples =
     "  trailcast trial --scout-camera webcam --follower-camera wide --trials 3\n"
     "  trailcast trial --scenario loop --laps 10 --trials 1   # does it drift from lap to lap?\n"
     "  trailcast trial --scenario seasons --visits 10 --refresh --trials 3\n"
+    "  trailcast trial --scenario indoor --matrix --trials 10 --csv matrix.csv\n"
     "  trailcast trial --flaw upside-down,late,all --trials 3   # as real robots are\n"
     "  trailcast trial --world place.glb --up y --path path.csv --speed 0.5 --seed 7\n"
     "  trailcast trial --trials 3 --log logs/   # then: trailcast explain logs/...-trial2.mcap\n"
@@ -118,6 +119,10 @@ void AddOptions(CLI::App& app, trial::TrialOptions& options, TrialFiles& files) 
       ->check(CLI::Range(1, 1000));
   app.add_flag("--backwards", options.backwards,
                "Followers drive in reverse gear from the taught path's end to its beginning");
+  app.add_flag("--matrix", options.matrix,
+               "So many trials of each of twelve tasks: begin on the path or beside it, go to its "
+               "end, back to its beginning or to any point, with the scout's camera or another "
+               "one of 80 to 140 degrees at 0.4 to 1.7 m; one table");
   app.add_option("--starts", options.starts,
                  "Followers are set down at so many drawn places along each taught route, told of "
                  "none, and judged by where they take themselves to be and by the metres after")

@@ -71,6 +71,38 @@ double DrawStart(const TruePath& taught, std::uint64_t seed) {
       .Uniform(0.0, std::max(0.0, taught.length_m() - kLeftAtLeast_m));
 }
 
+// Where a follower begins, and what it is set.
+struct Outset {
+  motion::Pose2 start;
+  sim::CameraModel camera;
+  bool backwards = false;
+  bool anywhere = false;               // it is told no place
+  std::optional<double> set_down_m{};  // along the path, if it only has to find itself
+  std::optional<double> goal_m{};      // metres of the path from the end where it begins
+};
+
+Outset DrawOutset(const TrialSetup& setup, const TrialCase& trial_case, const TruePath& taught,
+                  std::uint64_t seed) {
+  const auto along = [&](double along_m) {
+    return sim::PoseAlong(taught.points_m(), along_m, kAbout_m);
+  };
+  if (trial_case.cell) {
+    const MatrixTask task = DrawTask(*trial_case.cell, taught, trial_case.follower_camera, seed);
+    return {.start = task.start,
+            .camera = task.camera,
+            .backwards = task.backwards(),
+            .anywhere = trial_case.cell->goal == MatrixCell::Goal::kAnyPoint,
+            .goal_m = task.backwards() ? taught.length_m() - task.to_m : task.to_m};
+  }
+  Outset outset{.start = sim::StartPose(setup.path),
+                .camera = trial_case.follower_camera,
+                .backwards = setup.backwards};
+  if (trial_case.start > 0) outset.set_down_m = DrawStart(taught, seed);
+  if (outset.set_down_m) outset.start = along(*outset.set_down_m);
+  if (setup.backwards) outset.start = along(taught.length_m());
+  return outset;
+}
+
 using SessionOpener = std::function<Result<agent::ReplaySession>()>;
 
 // A follower in closed loop, frame by frame, until it has ended in some way. It drives lap after
@@ -80,8 +112,8 @@ class Replaying {
   Replaying(sim::SimulatedRobot& robot, std::optional<FlawedRobot> flawed, const Taught& taught,
             agent::ReplaySession session, SessionOpener open_next, int laps,
             agent::Diagnosis diagnosis, double push_m, std::optional<double> set_down_m,
-            std::optional<ScannedWay> way, Spoiled spoiled, std::uint64_t seed,
-            std::optional<OdometrySpoiler> odometry)
+            std::optional<double> goal_m, std::optional<ScannedWay> way, Spoiled spoiled,
+            std::uint64_t seed, std::optional<OdometrySpoiler> odometry)
       : robot_(robot),
         flawed_(std::move(flawed)),
         truth_(robot),
@@ -93,6 +125,7 @@ class Replaying {
         push_at_m_(0.5 * taught.path.length_m()),
         push_m_(push_m),
         set_down_m_(set_down_m),
+        goal_m_(goal_m),
         way_(std::move(way)),
         spoiled_(spoiled),
         seed_(seed),
@@ -137,6 +170,7 @@ class Replaying {
   // Fills in everything of the row that the replay decides.
   void Fill(TrialRow& row) const {
     row.verdict = judge_.verdict();
+    if (goal_m_) row.verdict.final_error_m = OffGoal_m();
     row.lap_ends_m = lap_ends_m_;
     row.found_share = last_.found_share;
     row.hand_overs = last_.hand_overs;
@@ -178,11 +212,17 @@ class Replaying {
         sim::Nearest(judge_.taught().points_m(), motion::Position(truth_.true_pose()),
                      *set_down_m_ - kGoesOn_m, *set_down_m_ + kGoesOn_m)
             .along_m;
-    const double taken_m =
-        last_.along_m.value_or(0.0) / session_.known_m() * judge_.taught().length_m();
-    found_ = {*set_down_m_, Seconds(now_), taken_m - at_m};
+    found_ = {*set_down_m_, Seconds(now_), TakenToBe_m() - at_m};
     diagnosis_.Note("found", fmt::format("{:+.2f} m from where it is", found_->off_m));
     found_after_m_ = judge_.driven_m();
+  }
+  // Returns where the robot takes itself to be, along the true path.
+  [[nodiscard]] double TakenToBe_m() const {
+    return last_.along_m.value_or(0.0) / session_.known_m() * judge_.taught().length_m();
+  }
+  [[nodiscard]] double OffGoal_m() const {
+    return (sim::PointAlong(judge_.taught().points_m(), *goal_m_) - judge_.verdict().final_m)
+        .norm();
   }
   // Returns the agent's next observation; until then the robot drives by its last command.
   std::optional<agent::Observation> See() {
@@ -220,6 +260,10 @@ class Replaying {
   }
   bool Ended(const Eigen::Vector2d& position_m) {
     if (found_ && judge_.driven_m() - found_after_m_ > kGoesOn_m) return EndFound();
+    if (goal_m_ && (last_.state == ReplayState::kArrived ||
+                    (last_.state == ReplayState::kFollowing && TakenToBe_m() >= *goal_m_))) {
+      return EndAtGoal();
+    }
     if (last_.state == ReplayState::kArrived) {
       if (set_down_m_) return EndFound();
       const double error_m = judge_.verdict().final_error_m;
@@ -249,6 +293,11 @@ class Replaying {
     if (off_m_ <= kBeside_m) return Arrive("found");
     return End("strayed", fmt::format("{}: {:.1f} m off the path", Where(), off_m_));
   }
+  bool EndAtGoal() {
+    const double off_m = OffGoal_m();
+    if (off_m <= kReached_m) return Arrive("arrived");
+    return End("misplaced", fmt::format("says it arrived {:.1f} m from its goal", off_m));
+  }
   bool Arrive(const char* state) {
     arrived_ = true;
     return End(state, "");
@@ -271,6 +320,7 @@ class Replaying {
   double push_at_m_;
   double push_m_;                     // 0 if there is none, or it is done
   std::optional<double> set_down_m_;  // along the path; the robot is told no place
+  std::optional<double> goal_m_;      // along the path, of a cell of the matrix
   std::optional<FoundFigures> found_;
   double found_after_m_ = 0.0;     // distance driven
   std::optional<ScannedWay> way_;  // for a follower with a scanner
@@ -308,6 +358,7 @@ TrialRow BeginRow(const TrialSetup& setup, const TrialCase& trial_case, std::uin
   row.method = agent::ToString(trial_case.method);
   row.scout_camera = trial_case.scout_camera.name;
   row.follower_camera = trial_case.follower_camera.name;
+  row.cell = trial_case.cell;
   row.same_robot = setup.same_robot;
   row.push_m = trial_case.push_m;
   row.flaw = trial_case.flaw;
@@ -331,23 +382,17 @@ Result<Followed> Follow(const TrialSetup& setup, const TrialCase& trial_case,
   if (visit.number > 1) {
     seeds.follower = sim::Random(seeds.follower, fmt::format("visit {}", visit.number)).Bits();
   }
-  std::optional<double> set_down_m;
   if (trial_case.start > 0) {
     seeds.follower = sim::Random(seeds.follower, fmt::format("start {}", trial_case.start)).Bits();
-    set_down_m = DrawStart(taught.path, seeds.follower);
   }
-  const auto along_taught = [&](double along_m) {
-    return sim::PoseAlong(taught.path.points_m(), along_m, kAbout_m);
-  };
-  motion::Pose2 start = set_down_m        ? along_taught(*set_down_m)
-                        : setup.backwards ? along_taught(taught.path.length_m())
-                                          : sim::StartPose(setup.path);
+  Outset outset = DrawOutset(setup, trial_case, taught.path, seeds.follower);
   if (visit.spoiled == Spoiled::kAside) {
-    start = motion::Compose(start, {0.0, kPutAside_m, 0.0});
+    outset.start = motion::Compose(outset.start, {0.0, kPutAside_m, 0.0});
   }
   const RobotFlaws flaws =
-      DrawFlaws(trial_case.flaw, trial_case.follower_camera, taught.duration_s, seeds.follower);
-  const auto options_of_follower = FollowerOptions(setup, *visit.world, flaws.camera, seeds, start);
+      DrawFlaws(trial_case.flaw, outset.camera, taught.duration_s, seeds.follower);
+  const auto options_of_follower =
+      FollowerOptions(setup, *visit.world, flaws.camera, seeds, outset.start);
   if (!options_of_follower) return Wrap(options_of_follower.error(), "the follower");
   const auto robot = sim::SimulatedRobot::Create(visit.world, *options_of_follower);
   if (!robot) return Wrap(robot.error(), "the follower");
@@ -356,26 +401,28 @@ Result<Followed> Follow(const TrialSetup& setup, const TrialCase& trial_case,
   if (!served) return tl::unexpected(served.error());
   agent::ReplayMethodOptions follower = setup.follower_options;
   follower.method = trial_case.method;
+  follower.anywhere = follower.anywhere || outset.anywhere;
+  follower.else_anywhere = trial_case.cell.has_value();  // as an agent's is
   follower.intake.roll_deg += flaws.told_roll_deg;
   if (flaws.told_ahead_m) follower.camera_ahead_m = flaws.told_ahead_m;
-  const auto open = [&] { return OpenSession(*served, follower, setup.backwards); };
+  const auto open = [&] { return OpenSession(*served, follower, outset.backwards); };
   auto session = open();
   if (!session) return tl::unexpected(session.error());
-  if (set_down_m && options.told_m) {
-    session->GoOnFrom({.along_m = DrawTold(*set_down_m, *options.told_m, seeds.follower)});
+  if (outset.set_down_m && options.told_m) {
+    session->GoOnFrom({.along_m = DrawTold(*outset.set_down_m, *options.told_m, seeds.follower)});
   }
   auto diagnosis = OpenTrialLog(setup, trial_case, options, trial, visit.number, route.info);
   if (!diagnosis) return tl::unexpected(diagnosis.error());
   std::optional<FlawedRobot> flawed;
   if (!trial_case.flaw.empty()) flawed.emplace(**robot, flaws, seeds.follower);
-  const Taught turned = setup.backwards ? TurnedRound(taught) : Taught();
-  const Taught& judged_by = setup.backwards ? turned : taught;
+  const Taught turned = outset.backwards ? TurnedRound(taught) : Taught();
+  const Taught& judged_by = outset.backwards ? turned : taught;
   std::optional<OdometrySpoiler> odometry;
   if (setup.follower_has_odometry) {
     odometry.emplace(setup.odometry_noise, taught.duration_s, seeds.follower);
   }
   Replaying replaying(**robot, std::move(flawed), judged_by, std::move(*session), open, setup.laps,
-                      std::move(*diagnosis), trial_case.push_m, set_down_m,
+                      std::move(*diagnosis), trial_case.push_m, outset.set_down_m, outset.goal_m,
                       setup.scanner ? std::optional<ScannedWay>(visit.world) : std::nullopt,
                       visit.spoiled, seeds.follower, std::move(odometry));
   for (int frame = 0;; ++frame) {

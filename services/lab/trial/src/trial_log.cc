@@ -13,13 +13,15 @@ std::filesystem::path TrialLogName(const TrialSetup& setup, const TrialCase& tri
       trial_case.push_m != 0.0 ? fmt::format("-push{:g}", trial_case.push_m) : "";
   const std::string flaw = trial_case.flaw.empty() ? "" : "-" + trial_case.flaw;
   const std::string start = trial_case.start > 0 ? fmt::format("-start{}", trial_case.start) : "";
+  const std::string cell =
+      trial_case.cell ? fmt::format("-cell{}", NumberOf(*trial_case.cell)) : "";
   const std::string visited = visit > 0 ? fmt::format("-visit{}", visit) : "";
   const char* const served = trial_case.through_server ? "-served" : "";
   const char* const same = setup.same_robot ? "-same" : "";
-  return fmt::format("{}-{}-{}-{}{}{}{}{}-trial{}{}{}.mcap", ForFileName(setup.scenario),
+  return fmt::format("{}-{}-{}-{}{}{}{}{}{}-trial{}{}{}.mcap", ForFileName(setup.scenario),
                      agent::ToString(trial_case.method), ForFileName(trial_case.scout_camera.name),
-                     ForFileName(trial_case.follower_camera.name), push, served, same, flaw, trial,
-                     start, visited);
+                     ForFileName(trial_case.follower_camera.name), push, served, same, flaw, cell,
+                     trial, start, visited);
 }
 
 Result<agent::Diagnosis> OpenTrialLog(const TrialSetup& setup, const TrialCase& trial_case,

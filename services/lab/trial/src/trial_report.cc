@@ -74,6 +74,7 @@ std::string CaseName(const TrialRow& row) {
   if (row.same_robot) name += ", same robot";
   if (row.push_m != 0.0) name += fmt::format(", pushed {:+.0f} m", row.push_m);
   if (!row.flaw.empty()) name += ", " + row.flaw;
+  if (row.cell) name += ", " + ToText(*row.cell);
   return name;
 }
 
@@ -207,6 +208,30 @@ std::string VisitTable(const std::vector<TrialRow>& rows) {
   return text;
 }
 
+// Writes a line for each cell. A robot that says that it is lost, or stands, harms nobody. One that
+// says that it has arrived where it has not, or drives away, is wrong.
+std::string MatrixTable(const std::vector<std::vector<TrialRow>>& cells) {
+  std::string text = fmt::format("{:<40}{:>9}{:>11}{:>7}{:>12}{:>8}\n", "start, task, camera",
+                                 "reached", "gave up", "wrong", "median m", "max m");
+  for (const std::vector<TrialRow>& rows : cells) {
+    std::vector<double> off_m;
+    int wrong = 0;
+    for (const TrialRow& row : rows) {
+      if (row.arrived) off_m.push_back(row.verdict.final_error_m);
+      wrong += row.state == "misplaced" || row.state == "strayed" ? 1 : 0;
+    }
+    std::sort(off_m.begin(), off_m.end());
+    const auto reached = static_cast<int>(off_m.size());
+    text += fmt::format("{:<40}{:>9}{:>11}{:>7}", ToText(*rows.front().cell),
+                        fmt::format("{}/{}", reached, rows.size()),
+                        static_cast<int>(rows.size()) - reached - wrong, wrong);
+    text += off_m.empty()
+                ? "\n"
+                : fmt::format("{:>12.2f}{:>8.2f}\n", off_m[off_m.size() / 2], off_m.back());
+  }
+  return text;
+}
+
 std::string SummaryTable(const std::vector<TrialRow>& rows) {
   const bool set_down =
       std::any_of(rows.begin(), rows.end(), [](const TrialRow& row) { return row.set_down; });
@@ -257,7 +282,8 @@ std::string TrialTable(const std::vector<TrialRow>& rows) {
     text += '\n';
   }
   if (cases.size() == 1) return text + SummaryTable(rows);
-  return text + rows.front().scenario + "\n" + CaseTable(cases);
+  text += rows.front().scenario + "\n";
+  return text + (rows.front().cell ? MatrixTable(cases) : CaseTable(cases));
 }
 
 }  // namespace trailcast::trial

@@ -50,6 +50,13 @@ Result<std::vector<TrialCase>> MakeCases(const Scenario& scenario, const TrialOp
       for (const double push_m : scenario.pushes_m) {
         for (const std::string& flaw : flaws) {
           TrialCase each{method, *scout, *follower, push_m, scenario.through_server, flaw};
+          if (options.matrix) {
+            for (const MatrixCell& cell : MatrixCells()) {
+              each.cell = cell;
+              cases.push_back(each);
+            }
+            continue;
+          }
           for (each.start = std::min(1, options.starts); each.start <= options.starts;
                ++each.start) {
             cases.push_back(each);
@@ -133,6 +140,22 @@ Result<void> OpenScene(const Scenario& scenario, const TrialOptions& options, Tr
   return {};
 }
 
+// Where its robots begin, and where they go, is the matrix's matter.
+Result<void> CheckMatrix(const Scenario& scenario, const TrialOptions& options) {
+  if (!options.matrix) return {};
+  if (options.backwards || options.starts > 0 || options.visits > 0 || options.laps > 1 ||
+      options.same_robot || scenario.pushes_m.size() > 1) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "the matrix sets where robots begin and go: leave out backwards, starts, visits, "
+                "laps, the same robot and scenarios that push");
+  }
+  if (options.odometry != "both" && options.odometry != "scout") {
+    return Fail(ErrorCode::kInvalidArgument,
+                "half of the matrix is driven backwards, which takes a scout with odometry");
+  }
+  return {};
+}
+
 // The user's own world is a scenario without a name of its own.
 Result<Scenario> ScenarioOf(const TrialOptions& options) {
   if (options.place.world.empty()) return FindScenario(options.scenario);
@@ -185,6 +208,7 @@ Result<TrialSetup> PrepareTrials(const TrialOptions& options) {
                 "backwards a route is followed once, from its end: leave out laps, starts and "
                 "visits");
   }
+  if (auto sound = CheckMatrix(*scenario, options); !sound) return tl::unexpected(sound.error());
   setup.backwards = options.backwards;
   setup.follower_options.anywhere = options.starts > 0 && !options.told_m;
   setup.follower_options.take_experience = options.refresh;
