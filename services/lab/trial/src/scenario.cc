@@ -70,6 +70,7 @@ std::vector<Scenario> MakeScenarios() {
   add("cameras", "every scout camera with every follower camera", "indoor").cameras = EveryPair();
   add("corridor", "30 m of corridor, 4 m of it without texture", "corridor");
   add("field", "30 m in the open, all features far away", "field");
+  add("rows", "50 m between forty rows of plants that look alike", "rows");
   add("dead-end", "18 m into a dead end and back, turned on the spot", "dead-end");
   add("shunt", "22 m, backwards out of a parking place and on", "parking-place");
   Scenario& robots = add("robots", "indoor, and all that real robots do wrong", "indoor");

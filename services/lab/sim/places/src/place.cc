@@ -15,6 +15,7 @@
 #include "services/lab/sim/places/src/parking_lot.h"
 #include "services/lab/sim/places/src/ramp.h"
 #include "services/lab/sim/places/src/rough_ground.h"
+#include "services/lab/sim/places/src/rows.h"
 #include "services/lab/sim/places/traffic.h"
 
 namespace trailcast::sim {
@@ -43,6 +44,7 @@ constexpr std::array kPlaces = {
     BuiltInPlace{"parking-place", "22 m, backwards out of a parking place and on",
                  MakeParkingPlaceWorld},
     BuiltInPlace{"field", "30 m in the open, all features far away", MakeFieldWorld},
+    BuiltInPlace{"rows", "50 m between rows of plants that look alike", MakeRowsWorld},
 };
 
 const BuiltInPlace* FindPlace(const std::string& name) {
