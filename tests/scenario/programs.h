@@ -19,6 +19,9 @@ class ProgramsTest : public testing::Test {
  protected:
   using Words = std::vector<std::string>;
   static constexpr int kTaughtFrames = 150;
+  // A virtual robot's larger pictures take four times as long to draw, and most of its time is
+  // spent on that. Tests that do not measure following have these.
+  static constexpr const char* kSmallPictures = "webcam+width=160+height=120";
   // The last milestone lies at the taught end, and followers walk a little further.
   static constexpr int kFollowerFrames = 220;
 

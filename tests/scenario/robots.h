@@ -30,9 +30,11 @@ class RobotsTest : public ProgramsTest {
                                       const std::string& path = kPath) {
     const std::string file = Path(name + "-path.csv");
     std::ofstream(file) << "x_m,y_m\n" << path;
+    const bool has_camera = std::find(words.begin(), words.end(), "--camera") != words.end();
     return Start("trailcast",
-                 With({"robot", "--sim", "indoor", "--path", file, "--ros2", "/" + name,
-                       "--ros-domain", "3", "--ros-dds-tag", tag_},
+                 With(With({"robot", "--sim", "indoor", "--path", file, "--ros2", "/" + name,
+                            "--ros-domain", "3", "--ros-dds-tag", tag_},
+                           has_camera ? Words{} : Words{"--camera", kSmallPictures}),
                       words),
                  name);
   }

@@ -28,9 +28,9 @@ class ChangesTest : public ProgramsTest {
   }
   void Teach(const std::string& route) {
     std::ofstream(Path("path.csv")) << "x_m,y_m\n1,1.5\n4,1.5\n";
-    const Ended taught =
-        RunAgent({"teach", "--sim", "indoor", "--path", Path("path.csv"), "--speed", "0.8",
-                  "--route", route, "--name", "scout", "--store", Path("scout.db"), "--server"});
+    const Ended taught = RunAgent({"teach", "--sim", "indoor", "--camera", kSmallPictures, "--path",
+                                   Path("path.csv"), "--speed", "0.8", "--route", route, "--name",
+                                   "scout", "--store", Path("scout.db"), "--server"});
     ASSERT_EQ(taught.status, 0) << taught.output;
   }
   static void Stop(Process& server) {

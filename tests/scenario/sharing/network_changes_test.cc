@@ -58,10 +58,11 @@ class NetworkChanges : public ProgramsTest {
   }
   // Some seventeen segments in as many seconds.
   std::unique_ptr<Process> Scout() {
-    return StartAt(kRobot, "trailcast-agent",
-                   {"teach", "--sim", "indoor", "--speed", "0.8", "--route", "hall", "--store",
-                    Path("scout.db"), "--server", "--delivery-timeout", "90"},
-                   "scout");
+    return StartAt(
+        kRobot, "trailcast-agent",
+        {"teach", "--sim", "indoor", "--camera", kSmallPictures, "--speed", "0.8", "--route",
+         "hall", "--store", Path("scout.db"), "--server", "--delivery-timeout", "90"},
+        "scout");
   }
   std::size_t HeldBy(const std::string& file) {
     auto store = store::OpenSqliteStore(Path(file));
@@ -204,13 +205,14 @@ TEST_F(NetworkChanges, AnInterfaceThatIsMadeAnewIsJoinedAnew) {
 TEST_F(NetworkChanges, ARobotOnAMissionGoesOnWhenItsAddressChangesAndIsHeardAndHearsAgain) {
   StartServerOnItsNetwork();
   lab_->GiveAddress(kRobot, kRobot);
-  const Ended taught =
-      RunAt(kRobot, "trailcast-agent",
-            {"teach", "--sim", "indoor", "--route", "hall", "--store", Path("robot.db")});
+  const Ended taught = RunAt(kRobot, "trailcast-agent",
+                             {"teach", "--sim", "indoor", "--camera", kSmallPictures, "--route",
+                              "hall", "--store", Path("robot.db")});
   ASSERT_EQ(taught.status, 0) << taught.output;
-  const auto robot = StartAt(
-      kRobot, "trailcast-agent",
-      {"serve", "--sim", "indoor", "--name", "robot1", "--store", Path("robot.db")}, "robot");
+  const auto robot = StartAt(kRobot, "trailcast-agent",
+                             {"serve", "--sim", "indoor", "--camera", kSmallPictures, "--name",
+                              "robot1", "--store", Path("robot.db")},
+                             "robot");
   ASSERT_TRUE(robot->WaitForOutput("available as 'robot1'")) << robot->output();
   const Words trip{"send", "robot1", "follow", "hall", "..6", "--id", "trip"};
   const Ended sent = RunAt(kServer, "trailcast", trip);

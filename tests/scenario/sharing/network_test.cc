@@ -71,8 +71,8 @@ class NetworkTest : public ProgramsTest {
   }
   // Some seventeen segments in as many seconds.
   Words TeachSimulated(const Words& more) {
-    return With({"teach", "--sim", "indoor", "--speed", "0.8", "--route", "hall", "--store",
-                 Path("scout.db"), "--server"},
+    return With({"teach", "--sim", "indoor", "--camera", kSmallPictures, "--speed", "0.8",
+                 "--route", "hall", "--store", Path("scout.db"), "--server"},
                 more);
   }
   // Everything is there, and nothing went over the air twice.

@@ -161,8 +161,9 @@ TEST_F(SharingTest, ANameThatTwoHaveIsToldWhenItIsNoticed) {
 }
 
 TEST_F(SharingTest, AnInterruptedScoutKeepsWhatItTaught) {
-  const auto scout =
-      Agent({"teach", "--sim", "indoor", "--route", "hall", "--store", Path("scout.db")}, "scout");
+  const auto scout = Agent({"teach", "--sim", "indoor", "--camera", kSmallPictures, "--route",
+                            "hall", "--store", Path("scout.db")},
+                           "scout");
   ASSERT_TRUE(scout->WaitForOutput("segment 0 of 'hall'")) << scout->output();
   scout->Signal(SIGHUP);
   const auto ended = End(*scout);
