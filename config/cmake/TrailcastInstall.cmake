@@ -14,8 +14,8 @@ install(FILES config/systemd/trailcast-server.service DESTINATION lib/systemd/sy
 install(FILES config/systemd/trailcast-agent.service DESTINATION lib/systemd/system
         COMPONENT agent)
 install(PROGRAMS config/examples/send_and_wait.sh DESTINATION share/trailcast COMPONENT tools)
-install(FILES config/systemd/trailcast-console.service DESTINATION lib/systemd/system
-        COMPONENT tools)
+install(FILES config/systemd/trailcast-console.service config/systemd/trailcast-vda5050.service
+        DESTINATION lib/systemd/system COMPONENT tools)
 install(FILES config/route_server/server.toml DESTINATION share/trailcast COMPONENT server)
 install(FILES config/grafana/trailcast.json config/prometheus/trailcast-alerts.yml
         DESTINATION share/trailcast COMPONENT tools)

@@ -74,9 +74,9 @@ class BrokerLink {
   void Run();
   void WaitBeforeNext();
   void Connected(int code);
-  void Disconnected(int code);
   void Came(Incoming incoming);
   void Sent(int number);
+  [[nodiscard]] std::string WhyNot(int code);
   void Tell(const std::string& trouble);
 
   const BrokerOptions options_;
@@ -84,7 +84,8 @@ class BrokerLink {
   mosquitto* client_ = nullptr;
   std::atomic<bool> connected_{false};
   std::atomic<std::uint64_t> connections_{0};
-  std::string trouble_{};  // as it was last logged; the thread's own
+  std::string trouble_{};  // as it was last logged; the thread's own, as is the next one
+  std::string refusal_{};  // the broker's last words to a client that it does not let in
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;

@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 cmake --install "$build" --prefix "$work/installed" >"$work/install.log"
-for file in bin/trailcast{,-agent,-console,-server} lib/systemd/system/trailcast-{agent,console,server}.service \
+for file in bin/trailcast{,-agent,-console,-server,-vda5050} lib/systemd/system/trailcast-{agent,console,server,vda5050}.service \
   share/bash-completion/completions/trailcast{,-agent,-console,-server} \
   share/fish/vendor_completions.d/trailcast{,-agent,-console,-server}.fish \
   share/zsh/{vendor-completions,site-functions}/_trailcast{,-agent,-console,-server}; do

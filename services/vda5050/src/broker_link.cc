@@ -81,8 +81,8 @@ Result<void> BrokerLink::SetUp(const std::string& client_id, const BrokerMessage
   mosquitto_connect_callback_set(client_, [](mosquitto*, void* self, int code) {
     static_cast<BrokerLink*>(self)->Connected(code);
   });
-  mosquitto_disconnect_callback_set(client_, [](mosquitto*, void* self, int code) {
-    static_cast<BrokerLink*>(self)->Disconnected(code);
+  mosquitto_disconnect_callback_set(client_, [](mosquitto*, void* self, int) {
+    static_cast<BrokerLink*>(self)->connected_ = false;
   });
   mosquitto_publish_callback_set(client_, [](mosquitto*, void* self, int number) {
     static_cast<BrokerLink*>(self)->Sent(number);
@@ -131,7 +131,7 @@ void BrokerLink::Run() {
       continue;
     }
     connected_ = false;
-    Tell(code == MOSQ_ERR_CONN_REFUSED ? trouble_ : mosquitto_strerror(code));
+    Tell(WhyNot(code));
     WaitBeforeNext();
     if (closed()) return;
     code = waits ? mosquitto_reconnect(client_) : mosquitto_reconnect_async(client_);
@@ -147,6 +147,18 @@ void BrokerLink::WaitBeforeNext() {
   changed_.wait_for(lock, kConnectAgain, [&] { return closed_; });
 }
 
+std::string BrokerLink::WhyNot(int code) {
+  if (!refusal_.empty()) return std::exchange(refusal_, {});
+  if (code == MOSQ_ERR_TLS) {
+    return "TLS failed: the broker's certificate is not from whom --tls-ca names, or not for this "
+           "HOST";
+  }
+  if (connections_ == 0 && code == MOSQ_ERR_CONN_LOST && options_.tls_ca.empty()) {
+    return "it ends the connection at once: if it asks for TLS, give --tls-ca";
+  }
+  return mosquitto_strerror(code);
+}
+
 void BrokerLink::Tell(const std::string& trouble) {
   if (trouble == trouble_) return;
   trouble_ = trouble;
@@ -155,7 +167,10 @@ void BrokerLink::Tell(const std::string& trouble) {
 }
 
 void BrokerLink::Connected(int code) {
-  if (code != 0) return Tell(mosquitto_connack_string(code));
+  if (code != 0) {
+    refusal_ = mosquitto_connack_string(code);
+    return;
+  }
   for (const std::string& topic : subscribed_) {
     (void)mosquitto_subscribe(client_, nullptr, topic.c_str(), 0);
   }
@@ -163,11 +178,6 @@ void BrokerLink::Connected(int code) {
   trouble_.clear();
   ++connections_;
   connected_ = true;
-}
-
-void BrokerLink::Disconnected(int code) {
-  connected_ = false;
-  if (code != 0) Tell("the connection has ended");
 }
 
 void BrokerLink::Came(Incoming incoming) {

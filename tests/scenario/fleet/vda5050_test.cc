@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "tests/scenario/robots.h"
+#include "tests/support/strangers/self_signed.h"
 
 namespace trailcast::test {
 namespace {
@@ -44,8 +45,8 @@ class Vda5050Test : public RobotsTest {
       if (!std::filesystem::exists(program)) GTEST_SKIP() << program << " is not installed";
     }
     port_ = std::to_string(FreePort());
-    std::ofstream(Path("mosquitto.conf"))
-        << "listener " << port_ << " 127.0.0.1\nallow_anonymous true\n";
+    std::ofstream(Path("mosquitto.conf")) << "listener " << port_ << " 127.0.0.1\n"
+                                          << BrokerSettings();
     BeginBroker();
     Teach();
     server_ = Server();
@@ -55,6 +56,9 @@ class Vda5050Test : public RobotsTest {
     agent_ = Serve("robot1");
     ASSERT_TRUE(agent_->WaitForOutput("available as 'robot1'")) << agent_->output();
   }
+  [[nodiscard]] virtual std::string BrokerSettings() { return "allow_anonymous true\n"; }
+  // Returns how a fleet manager's clients connect.
+  [[nodiscard]] virtual Words Connection() const { return {"-h", "127.0.0.1", "-p", port_}; }
   void BeginBroker() {
     const std::string log = Path("broker" + std::to_string(++started_) + ".log");
     broker_ = std::make_unique<Process>(Words{kBroker, "-c", Path("mosquitto.conf")}, log);
@@ -62,9 +66,9 @@ class Vda5050Test : public RobotsTest {
   }
   // Hears what is told from now on, and what the broker has kept.
   void Listen() {
-    heard_ = std::make_unique<Process>(
-        Words{kListens, "-h", "127.0.0.1", "-p", port_, "-v", "-t", "vda5050/#"},
-        Path("heard" + std::to_string(++started_) + ".log"));
+    heard_ =
+        std::make_unique<Process>(With(With({kListens}, Connection()), {"-v", "-t", "vda5050/#"}),
+                                  Path("heard" + std::to_string(++started_) + ".log"));
   }
   std::unique_ptr<Process> Gateway(const std::string& log) {
     return Start(
@@ -78,9 +82,8 @@ class Vda5050Test : public RobotsTest {
     message["version"] = "3.0.0";
     message["manufacturer"] = "acme";
     message["serialNumber"] = "robot1";
-    Process sent(
-        {kSends, "-h", "127.0.0.1", "-p", port_, "-t", kTopic + topic, "-m", message.dump()},
-        Path("sent" + std::to_string(++started_) + ".log"));
+    Process sent(With(With({kSends}, Connection()), {"-t", kTopic + topic, "-m", message.dump()}),
+                 Path("sent" + std::to_string(++started_) + ".log"));
     ASSERT_EQ(End(sent).status, 0) << sent.output();
   }
   void Order(const std::string& id, const std::vector<std::string>& nodes) {
@@ -204,6 +207,61 @@ TEST_F(Vda5050Test, WhatRobotsDoNotTellIsVouchedForOrRefused) {
   EXPECT_TRUE(gateway->WaitForOutput("robot2 is not presented: it tells no battery"))
       << gateway->output();
   EXPECT_TRUE(gateway->WaitForOutput("robot1 is presented as")) << gateway->output();
+}
+
+// The broker asks for TLS, and for a user and a password.
+class Vda5050DoorsTest : public Vda5050Test {
+ protected:
+  static constexpr const char* kPassword = "correct horse";
+
+  std::string BrokerSettings() override {
+    files_ = MakeSelfSigned(folder_.path());
+    std::ofstream(Path("password")) << kPassword << "\n";
+    std::ofstream(Path("wrong")) << "correct mule\n";
+    std::ofstream(Path("users")) << "gateway:" << kPassword << "\n";
+    EXPECT_EQ(End(*std::make_unique<Process>(
+                      Words{"/usr/bin/mosquitto_passwd", "-U", Path("users")}, Path("users.log")))
+                  .status,
+              0);
+    std::filesystem::permissions(Path("users"), std::filesystem::perms::owner_read);
+    // As root, the broker would read its files as another user.
+    const char* const user = geteuid() == 0 ? "user root\n" : "";
+    return fmt::format("{}certfile {}\nkeyfile {}\nallow_anonymous false\npassword_file {}\n", user,
+                       files_.certificate.string(), files_.key.string(), Path("users"));
+  }
+  Words Connection() const override {
+    return {"-h", "localhost", "-p", port_,    "--cafile", files_.certificate.string(),
+            "-u", "gateway",   "-P", kPassword};
+  }
+  std::unique_ptr<Process> Through(const std::string& password, const Words& trust) {
+    return Start(
+        "trailcast-vda5050",
+        With({"--vouch-for-emergency-stops", "--manufacturer", "acme", "--broker",
+              "localhost:" + port_, "--user", "gateway", "--password-file", Path(password)},
+             trust),
+        "gateway" + std::to_string(++started_));
+  }
+
+  SelfSigned files_;
+};
+
+TEST_F(Vda5050DoorsTest, WithItsPasswordItComesInByTlsAndOtherwiseSaysWhyNot) {
+  const Words trusts{"--tls-ca", files_.certificate.string()};
+  const auto stranger = Through("wrong", trusts);
+  EXPECT_TRUE(stranger->WaitForOutput("not authorised")) << stranger->output();
+  const SelfSigned others = MakeSelfSigned(folder_.path(), "other");
+  const auto misled = Through("password", {"--tls-ca", others.certificate.string()});
+  EXPECT_TRUE(misled->WaitForOutput("certificate")) << misled->output();
+  const auto plain = Through("password", {});
+  EXPECT_TRUE(plain->WaitForOutput("TLS")) << plain->output();
+
+  Listen();
+  const auto gateway = Through("password", trusts);
+  ASSERT_TRUE(Connected("ONLINE")) << gateway->output() << heard_->output();
+  Order("o1", {"hall:0", "hall:1"});
+  EXPECT_TRUE(Told("state", [](const json& told) {
+    return told["lastNodeId"] == "hall:1" && told["nodeStates"].empty();
+  })) << heard_->output();
 }
 
 }  // namespace
