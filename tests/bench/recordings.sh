@@ -31,7 +31,7 @@ refreshed=(
   'patio_laps/lap0 patio_laps/lap1 patio_laps/lap3 patio_laps/truth_lap3.csv'
 )
 disturbances=(reverse every=3 slower=3 skip=50 jump=3 camera gamma=0.5 gamma=2 noise=12 jpeg=30 smear
-  crop=0.15)
+  crop=0.15 blur flare)
 rate=20
 
 set_of() {

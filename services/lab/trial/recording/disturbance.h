@@ -22,6 +22,8 @@ enum class ChangeKind {
   kJpeg,
   kSmear,
   kCrop,
+  kBlur,
+  kFlare,
 };
 
 struct Change {

@@ -50,7 +50,7 @@ TEST(Disturbance, AValueOutOfRangeIsRefusedWithTheRange) {
 
 TEST(Disturbance, HelpNamesEachKind) {
   for (const char* name : {"every", "slower", "reverse", "skip", "jump", "camera", "gamma", "noise",
-                           "jpeg", "smear", "crop"}) {
+                           "jpeg", "smear", "crop", "blur", "flare"}) {
     EXPECT_THAT(ChangeHelp(), HasSubstr(std::string("  ") + name));
     EXPECT_TRUE(ParseDisturbance(name)) << name;
   }

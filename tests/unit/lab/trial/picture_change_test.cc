@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -36,6 +37,23 @@ double Rms(const image::GrayImage& one, const image::GrayImage& other, const Whe
 }
 double Rms(const image::GrayImage& one, const image::GrayImage& other) {
   return Rms(one, other, [](int, int) { return true; });
+}
+
+double Brightness(const image::GrayImage& picture) {
+  double sum = 0.0;
+  for (const std::uint8_t level : picture.pixels) sum += level;
+  return sum / static_cast<double>(picture.pixels.size());
+}
+
+// Between neighbours in a row, in the mean.
+double Contrast(const image::GrayImage& picture) {
+  double sum = 0.0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 1; x < picture.width; ++x) {
+      sum += std::abs(picture.at(x, y) - picture.at(x - 1, y));
+    }
+  }
+  return sum / static_cast<double>(picture.pixels.size());
 }
 
 TEST(PictureChange, ChangesOfTheOrderLeavePicturesAlone) {
@@ -76,6 +94,31 @@ TEST(PictureChange, ASmearIsInOnePlaceOfTheLens) {
   // A disc of 32 pixels is 3217 of 19200; its edge is soft.
   EXPECT_GT(changed, 2000);
   EXPECT_LT(changed, 7000);
+}
+
+TEST(PictureChange, MotionBlurIsOfAnotherLengthInEachPictureAndKeepsBrightness) {
+  const image::GrayImage wall = Wall();
+  const image::GrayImage blurred = Apply("blur=0.1", wall, 3);
+  EXPECT_EQ(Apply("blur=0.1", wall, 3).pixels, blurred.pixels);
+  EXPECT_NE(Apply("blur=0.1", wall, 4).pixels, blurred.pixels);
+  EXPECT_LT(Contrast(blurred), 0.8 * Contrast(wall));
+  EXPECT_NEAR(Brightness(blurred), Brightness(wall), 2.0);
+}
+
+TEST(PictureChange, AFlareBurnsOutADiscThatWandersAndPalesTheRest) {
+  const image::GrayImage wall = Wall();
+  const image::GrayImage before = Apply("flare=0.7", wall, 0);
+  const image::GrayImage later = Apply("flare=0.7", wall, 30);
+  const auto burnt = [](const image::GrayImage& picture) {
+    return std::count(picture.pixels.begin(), picture.pixels.end(), 255);
+  };
+  // A disc of 8 pixels is 201, or half of it at the picture's edge.
+  EXPECT_GT(burnt(before), 100);
+  EXPECT_LT(burnt(before), 6000);
+  EXPECT_GT(burnt(later), 100);
+  EXPECT_NE(before.pixels, later.pixels);
+  EXPECT_LT(Contrast(before), Contrast(wall));
+  EXPECT_GT(Brightness(before), 0.6 * Brightness(wall));
 }
 
 TEST(PictureChange, ACropTakesFromOneSide) {

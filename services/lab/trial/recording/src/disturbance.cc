@@ -32,6 +32,11 @@ constexpr std::array kKnown{
           "a smear on the lens, its radius so much of the picture's width"},
     Known{ChangeKind::kCrop, "crop", 0.15, 0.01, 0.8,
           "a mount that was moved: without so much of the left and lower side"},
+    Known{ChangeKind::kBlur, "blur", 0.03, 0.001, 0.3,
+          "motion blur, in each picture of another length up to so much of its width"},
+    Known{ChangeKind::kFlare, "flare", 0.7, 0.05, 1,
+          "a low sun that wanders through the picture, with veiling light of so much of white, a "
+          "burnt-out disc, streaks, ghosts and a shorter exposure"},
 };
 
 bool Has(const Disturbance& disturbance, ChangeKind kind) {

@@ -73,6 +73,67 @@ GrayImage Cropped(const GrayImage& frame, double share) {
   return cropped;
 }
 
+// A robot that turns or shakes blurs mostly sideways, and in each picture otherwise.
+GrayImage Blurred(GrayImage frame, double longest_share, std::uint64_t seed) {
+  constexpr double kSteepest_rad = 0.5;
+  cv::RNG random(seed);
+  const int length = 1 + static_cast<int>(random.uniform(0.0, longest_share) * frame.width);
+  if (length < 2) return frame;
+  const double angle_rad = random.uniform(-kSteepest_rad, kSteepest_rad);
+  cv::Mat along = cv::Mat::zeros(2 * length + 1, 2 * length + 1, CV_32F);
+  const cv::Point2d half(0.5 * length * std::cos(angle_rad), 0.5 * length * std::sin(angle_rad));
+  const cv::Point2d middle(length, length);
+  cv::line(along, middle - half, middle + half, 1.0);
+  along /= cv::sum(along)[0];
+  cv::Mat picture = View(frame);
+  cv::filter2D(picture, picture, -1, along, {-1, -1}, 0.0, cv::BORDER_REPLICATE);
+  return frame;
+}
+
+// The sun stands low before the robot, and goes from one side to the other and back as the robot
+// turns. The camera exposes less, and what the lens scatters lies over the whole picture.
+GrayImage Flared(GrayImage frame, double veil, std::uint64_t seed, int number) {
+  constexpr double kWhite = 255.0;
+  constexpr double kExposure = 0.55;
+  constexpr double kFramesAcross = 60.0;
+  constexpr double kDisc = 0.05;  // these are shares of the width
+  constexpr double kGlare = 0.35;
+  constexpr double kGhost = 0.03;
+  constexpr int kStreaks = 6;
+  constexpr int kGhosts = 3;
+  cv::RNG random(seed);
+  const double phase = random.uniform(0.0, 2.0 * CV_PI) + CV_PI * number / kFramesAcross;
+  const double high = random.uniform(0.1, 0.3);
+  const double width = frame.width;
+  const cv::Point2d middle(0.5 * width, 0.5 * frame.height);
+  const cv::Point2d sun((0.5 + 0.45 * std::sin(phase)) * width, high * frame.height);
+  cv::Mat light = cv::Mat::zeros(frame.height, frame.width, CV_32F);
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      const double away = std::hypot(x - sun.x, y - sun.y) / width;
+      light.at<float>(y, x) = static_cast<float>(
+          kWhite * veil * (0.2 + 0.8 * std::exp(-away / kGlare)) + (away < kDisc ? kWhite : 0.0));
+    }
+  }
+  cv::Mat spots = cv::Mat::zeros(light.size(), CV_32F);
+  for (int i = 0; i < kStreaks; ++i) {
+    const double angle_rad = CV_PI * i / kStreaks + 0.2;
+    const cv::Point2d end(0.3 * width * std::cos(angle_rad), 0.3 * width * std::sin(angle_rad));
+    cv::line(spots, sun - end, sun + end, 0.4 * kWhite * veil);
+  }
+  for (int i = 1; i <= kGhosts; ++i) {
+    const cv::Point2d at = middle + (middle - sun) * (0.5 * i);
+    cv::circle(spots, at, static_cast<int>(kGhost * i * width), 0.3 * kWhite * veil, cv::FILLED);
+  }
+  cv::GaussianBlur(spots, spots, {}, 0.01 * width);
+  cv::Mat picture = View(frame);
+  cv::Mat lit;
+  picture.convertTo(lit, CV_32F, kExposure);
+  lit += light + spots;
+  lit.convertTo(picture, CV_8U);
+  return frame;
+}
+
 Result<GrayImage> Changed(GrayImage frame, const Change& change, std::uint64_t seed, int number) {
   // The number is spread over all bits, so that neither pictures nor seeds share their noise.
   const std::uint64_t own =
@@ -93,6 +154,10 @@ Result<GrayImage> Changed(GrayImage frame, const Change& change, std::uint64_t s
       return Smeared(std::move(frame), change.value, seed + 1);
     case ChangeKind::kCrop:
       return Cropped(frame, change.value);
+    case ChangeKind::kBlur:
+      return Blurred(std::move(frame), change.value, own);
+    case ChangeKind::kFlare:
+      return Flared(std::move(frame), change.value, seed + 1, number);
     case ChangeKind::kEvery:
     case ChangeKind::kSlower:
     case ChangeKind::kReverse:
