@@ -45,6 +45,8 @@ class Desk {
     Alerts alerts{};                                // alerts from before
     // This gets what is to be kept of alerts, on the desk's thread, and must not wait.
     std::function<void(std::string)> keep_alerts{};
+    // This gets all alerts, and the last missions, several times a second, likewise.
+    std::function<void(nlohmann::ordered_json alerts, nlohmann::ordered_json missions)> look{};
   };
   // So many errands, apart from stops, are under way at once. More are refused.
   static constexpr std::size_t kMostErrands = 16;

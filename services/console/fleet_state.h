@@ -88,6 +88,7 @@ class FleetState {
   // Returns openapi.yaml's State without its time: robots by name, with the same members. Missions
   // are null until it is known whether there are any.
   [[nodiscard]] nlohmann::ordered_json Shown() const;
+  [[nodiscard]] nlohmann::ordered_json MissionsShown() const;  // as Shown has them
   // This is what people have to see to, and which members are known. A low battery is reported
   // until it is charged a little: `open` tells that it was low.
   struct ToSeeTo {
@@ -152,7 +153,6 @@ class FleetState {
                                                const std::vector<mission::Record>& queue) const;
   // Returns the missions that wait for each robot, the next first.
   [[nodiscard]] std::map<AgentId, std::vector<mission::Record>> Queues() const;
-  [[nodiscard]] nlohmann::ordered_json MissionsShown() const;
 
   AgentId self_;
   NewestMap<AgentId, Agent> agents_{kMostAgents};

@@ -17,13 +17,16 @@
 #include "services/fleet/operator_peer.h"
 #include "services/fleet/routes/route_export.h"
 #include "services/program/command_line.h"
+#include "services/program/json.h"
 #include "services/program/open_exchange.h"
 #include "services/program/stop_signal.h"
+#include "services/webhooks/courier.h"
 
 namespace {
 
 namespace program = trailcast::program;
 namespace console = trailcast::console;
+namespace webhooks = trailcast::webhooks;
 
 constexpr const char* kFooter = R"(Examples:
   trailcast-console                # then http://localhost:8080 in this machine's browser
@@ -46,6 +49,7 @@ struct WebOptions {
   std::filesystem::path site;
   std::filesystem::path logs;
   std::filesystem::path alerts;
+  std::filesystem::path webhooks;
 };
 
 bool IsLoopback(const std::string& host) {
@@ -95,6 +99,18 @@ trailcast::Result<console::Entry> OpenEntry(const WebOptions& options) {
   return entry;
 }
 
+// Returns null if nobody is to be told.
+trailcast::Result<std::unique_ptr<webhooks::Courier>> OpenCourier(
+    const std::filesystem::path& file) {
+  if (file.empty()) return nullptr;
+  auto hooks = webhooks::LoadHooks(file);
+  if (!hooks) return tl::unexpected(hooks.error());
+  const std::filesystem::path waiting = file.string() + ".waiting";
+  return webhooks::Courier::Open(*std::move(hooks), waiting, [](const std::string& line) {
+    spdlog::warn("console: {}", line);
+  });
+}
+
 int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOptions& options) {
   if (const std::string missing = Missing(options); !missing.empty()) {
     std::fprintf(stderr, "trailcast-console: %s\n", missing.c_str());
@@ -121,6 +137,13 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
     alerts = *std::move(opened);
     desk_options.alerts = alerts->alerts();
     desk_options.keep_alerts = [&alerts](std::string text) { alerts->Keep(std::move(text)); };
+  }
+  auto courier = OpenCourier(options.webhooks);
+  if (!courier) return program::Complain(app, Wrap(courier.error(), "--webhooks").value());
+  if (*courier) {
+    desk_options.look = [&](program::Json alerts, program::Json missions) {
+      (*courier)->Look(std::move(alerts), std::move(missions));
+    };
   }
   console::Desk desk(peer->self, std::move(peer->exchange), std::move(desk_options));
   console::Atlas atlas([&] {
@@ -204,6 +227,12 @@ int Run(int argc, char** argv) {
                  "File in which alerts, and who has acknowledged them, outlive the console; made "
                  "if missing")
       ->envname("TRAILCAST_ALERTS");
+  app.add_option("--webhooks", options.webhooks,
+                 "File of the URLs that are told of alerts and missions, in JSON: [{\"url\": "
+                 "\"https://...\", \"secret\": \"...\", \"events\": [\"alert\", "
+                 "\"mission.failed\"]}]; what waits is kept beside it, in FILE.waiting")
+      ->check(CLI::ExistingFile)
+      ->envname("TRAILCAST_WEBHOOKS");
   const console::UsersCommand users(app);
   if (const auto ended = program::Parse(app, argc, argv)) return *ended;
   return users.asked_for() ? users.Run() : Serve(app, common, options);

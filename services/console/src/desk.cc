@@ -205,6 +205,7 @@ void Desk::NoteAlerts(Clock::time_point now) {
   const auto [causes, subjects, unsure] = state_.WhatToSeeTo(alerts_);
   alerts_.Note(causes, subjects, unsure, NowUnixMs());
   for (const AgentId& gone : state_.TakeGone()) (void)alerts_.End(gone.value(), NowUnixMs());
+  if (options_.look) options_.look(alerts_.AllShown(), state_.MissionsShown());
 }
 
 void Desk::ShowNews(Clock::time_point now) {
