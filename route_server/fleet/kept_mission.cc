@@ -13,13 +13,13 @@ std::string Describe(const mission::Mission& mission) {
                      PlainText(mission.orders, 200));
 }
 
-std::string OrdersWithoutWay(const std::string& goal) {
+std::string OrdersWithoutWay(std::string_view goal) {
   return fmt::format("goto {} wait way", goal);
 }
 
 bool SendsHome(const mission::Record& record) {
   return record.mission.id.starts_with(kHomePrefix) &&
-         record.mission.orders == OrdersWithoutWay(kHome);
+         record.mission.orders == OrdersWithoutWay(mission::kHome);
 }
 
 std::uint32_t EndedStates() {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "services/mission/mission.h"
 
@@ -16,14 +17,12 @@ inline constexpr std::chrono::milliseconds kSoon{1000};
 inline constexpr std::chrono::milliseconds kLate{30'000};
 // The id of the mission of a robot that is sent home begins with this.
 inline constexpr const char* kHomePrefix = "home-";
-// The place that it is sent to.
-inline constexpr const char* kHome = "home";
 
 // Returns a mission in words, for the log.
 [[nodiscard]] std::string Describe(const mission::Mission& mission);
 
 // Returns the orders of a mission whose path is only found once its robot is about to begin.
-[[nodiscard]] std::string OrdersWithoutWay(const std::string& goal);
+[[nodiscard]] std::string OrdersWithoutWay(std::string_view goal);
 
 [[nodiscard]] bool SendsHome(const mission::Record& record);
 

@@ -8,6 +8,7 @@
 #include "route_server/network/network_ids.h"
 #include "route_server/routes/followable.h"
 #include "services/exchange/route_finder.h"
+#include "services/mission/orders.h"
 #include "services/route/route_ref.h"
 
 namespace trailcast::server {
@@ -61,7 +62,7 @@ Result<Place> NetworkBoard::Resolve(const Goal& goal) const {
 }
 
 Result<std::vector<Place>> NetworkBoard::PlacesOf(const Goal& goal) const {
-  if (goal.name != network::kHome || named_.contains(goal.name)) {
+  if (goal.name != mission::kHome || named_.contains(goal.name)) {
     auto place = Resolve(goal);
     if (!place) return tl::unexpected(place.error());
     return std::vector{*std::move(place)};

@@ -116,8 +116,6 @@ struct Goal {
   Place place{};
   bool operator==(const Goal&) const = default;
 };
-// This goal means the nearest place that is a home, unless a place is called so.
-inline constexpr std::string_view kHome = "home";
 // A name has 1 to 64 bytes without blanks and '@'.
 [[nodiscard]] Result<Goal> ParseGoal(std::string_view word);
 

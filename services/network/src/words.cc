@@ -31,6 +31,7 @@ constexpr std::string_view kRoute = "route ";
 constexpr std::string_view kProposed = "proposed ";
 constexpr std::string_view kConfidence = " confidence ";
 constexpr std::string_view kLost = "lost ";
+constexpr std::string_view kHome = "home";  // behind a name: robots are at home there
 
 // Writes metres to the centimetre.
 std::string Metres(double metres) {
