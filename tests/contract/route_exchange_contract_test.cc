@@ -259,7 +259,7 @@ TEST_P(RouteExchangeContract, CarriesWhatBecameOfAMission) {
                                   .state = mission::State::kExpired,
                                   .task = ~0U,
                                   .way = ~0U,
-                                  .waits_for = mission::WaitsFor::kLane,
+                                  .waits_for = mission::WaitsFor::kPlace,
                                   .detail = std::string(kMaxLineBytes, 'd'),
                                   .relayed = true},
                   Topic::kMissionStates);
@@ -439,7 +439,7 @@ TEST_P(RouteExchangeContract, RefusesMessagesOutOfBounds) {
       SegmentBatch{AgentId("a"), {test::PieceOf(KeyNumber(1), 0, kMaxPieceBytes + 1)}},
       SegmentRequest{AgentId("a"), {RouteId("short"), TeachingId(1)}, {}},
       mission::Report{
-          .agent = AgentId("a"), .mission = "m", .waits_for = static_cast<mission::WaitsFor>(3)},
+          .agent = AgentId("a"), .mission = "m", .waits_for = static_cast<mission::WaitsFor>(5)},
       CatalogRequest{AgentId("not a name"), 0, {}}};
   for (const Message& message : refused) {
     const auto result = writer->Publish(message);

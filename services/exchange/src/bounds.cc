@@ -254,7 +254,7 @@ Result<void> Check(const mission::Report& message) {
   // A robot takes a mission or refuses it; only servers put one off.
   const auto last = message.change == 0 ? mission::State::kPutOff : mission::State::kExpired;
   if (auto ok = CheckEnum("mission state", message.state, last); !ok) return ok;
-  if (auto ok = CheckEnum("what it waits for", message.waits_for, mission::WaitsFor::kTurn); !ok) {
+  if (auto ok = CheckEnum("what it waits for", message.waits_for, mission::WaitsFor::kPlace); !ok) {
     return ok;
   }
   return CheckText("detail", message.detail, kMaxLineBytes);

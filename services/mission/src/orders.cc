@@ -310,6 +310,22 @@ const char* ToString(State state) {
   return "unknown";
 }
 
+const char* ToString(WaitsFor waits_for) {
+  switch (waits_for) {
+    case WaitsFor::kNothing:
+      return "nothing";
+    case WaitsFor::kWay:
+      return "path";
+    case WaitsFor::kLane:
+      return "admission";
+    case WaitsFor::kTurn:
+      return "turn";
+    case WaitsFor::kPlace:
+      return "place";
+  }
+  return "unknown";
+}
+
 bool IsNewer(const Report& report, const Report& last) {
   if (report.change != last.change) return report.change > last.change;
   if (report.change != 0 || last.state != State::kSent) return false;

@@ -185,7 +185,9 @@ void Vehicle::EndLeg(const mission::Report& last) {
     lost_.clear();
     return NoteReached(to);
   }
-  if (last.detail.starts_with("LOST")) lost_ = last.detail;
+  if (last.waits_for == mission::WaitsFor::kPlace) {
+    lost_ = last.detail.empty() ? "it is lost" : last.detail;
+  }
   if (withdrawn && last.state == State::kCancelled) return;
   unreachable_ =
       Fault{.type = "NODE_UNREACHABLE",
