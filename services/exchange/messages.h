@@ -301,23 +301,23 @@ struct DriveCommand {
   bool operator==(const DriveCommand&) const = default;
 };
 
-// trailcast/glance_requests asks for one snapshot of what a robot's camera sees.
-struct GlanceRequest {
+// trailcast/snapshot_requests asks for one snapshot of what a robot's camera sees.
+struct SnapshotRequest {
   AgentId agent{};  // the robot
   AgentId client{};
   std::uint64_t request = 0;
-  bool operator==(const GlanceRequest&) const = default;
+  bool operator==(const SnapshotRequest&) const = default;
 };
 
-// `trailcast/glances` has the robot's answer.
-struct Glance {
+// `trailcast/snapshots` has the robot's answer.
+struct Snapshot {
   AgentId agent{};
   AgentId client{};  // the client that asked; `request` is its request
   std::uint64_t request = 0;
   std::vector<std::uint8_t> picture{};  // JPEG; empty if there is none, and `detail` says why
   bool marked = false;                  // the features that the robot follows are drawn on it
   std::string detail{};                 // one line for people
-  bool operator==(const Glance&) const = default;
+  bool operator==(const Snapshot&) const = default;
 };
 
 // On trailcast/network_edits an operator changes how routes are joined, or closes a section. A
@@ -429,7 +429,7 @@ using AnyMessage =
     std::variant<RouteAnnouncement, SegmentBatch, SegmentRequest, Receipt, CatalogRequest,
                  CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, NowCommand,
                  NowAnswer, mission::Mission, mission::Report, MissionRequest, MissionReply,
-                 DriveCommand, GlanceRequest, Glance, NetworkEdit, NetworkRequest, NetworkReply,
+                 DriveCommand, SnapshotRequest, Snapshot, NetworkEdit, NetworkRequest, NetworkReply,
                  FollowedStretches, ReachRequest, ReachReport, StoreSummary, AgentGone>;
 
 // This is one of these types. One source file makes its copies; otherwise each file that hands

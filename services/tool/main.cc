@@ -22,7 +22,7 @@ constexpr const char* kMainExamples =
     "  trailcast send robot2 follow hall      # an available robot; see 'missions', too\n"
     "  trailcast network join hall@12 office@0   # routes become a network\n"
     "  trailcast send robot2 goto office@8    # the best way over it\n"
-    "  trailcast glance robot2                # what its camera sees, as a picture\n"
+    "  trailcast snapshot robot2                # what its camera sees, as a picture\n"
     "  trailcast pause robot2                 # and resume, cancel, stop, release: robots at work\n"
     "  trailcast keys init                    # who may take part, and as what: DDS Security\n"
     "  trailcast doctor                       # is this machine fit to share routes?\n"
@@ -52,7 +52,7 @@ int Run(int argc, char** argv) {
                                 trailcast::tool::AddWhereCommand(app, common),
                                 trailcast::tool::AddFleetCommand(app, common),
                                 trailcast::tool::AddReachCommand(app, common),
-                                trailcast::tool::AddGlanceCommand(app, common),
+                                trailcast::tool::AddSnapshotCommand(app, common),
                                 trailcast::tool::AddNetworkCommand(app, common),
                                 trailcast::tool::AddKeysCommand(app),
                                 trailcast::tool::AddDoctorCommand(app, common),

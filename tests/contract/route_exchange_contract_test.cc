@@ -205,16 +205,16 @@ TEST_P(RouteExchangeContract, CarriesHowARobotIsDriven) {
                   Topic::kDrives);
 }
 
-TEST_P(RouteExchangeContract, CarriesTheLargestGlance) {
-  ExpectRoundTrip(exchange::GlanceRequest{AgentId("r"), AgentId("o"), ~0ULL},
-                  Topic::kGlanceRequests);
-  ExpectRoundTrip(exchange::Glance{.agent = AgentId("r"),
-                                   .client = AgentId("o"),
-                                   .request = ~0ULL,
-                                   .picture = std::vector<std::uint8_t>(exchange::kMaxGlanceBytes,
-                                                                        std::uint8_t{0xA5}),
-                                   .marked = true},
-                  Topic::kGlances);
+TEST_P(RouteExchangeContract, CarriesTheLargestSnapshot) {
+  ExpectRoundTrip(exchange::SnapshotRequest{AgentId("r"), AgentId("o"), ~0ULL},
+                  Topic::kSnapshotRequests);
+  ExpectRoundTrip(exchange::Snapshot{.agent = AgentId("r"),
+                                     .client = AgentId("o"),
+                                     .request = ~0ULL,
+                                     .picture = std::vector<std::uint8_t>(
+                                         exchange::kMaxSnapshotBytes, std::uint8_t{0xA5}),
+                                     .marked = true},
+                  Topic::kSnapshots);
 }
 
 TEST_P(RouteExchangeContract, CarriesWhoHearsWhom) {

@@ -158,12 +158,12 @@ class Samples {
     wire.turn_radps = Real();
     wire.sent_ms = input_.ConsumeIntegral<std::uint64_t>();
   }
-  void Fill(trailcast_wire_GlanceRequest& wire) {
+  void Fill(trailcast_wire_SnapshotRequest& wire) {
     wire.agent = Name();
     wire.client = Name();
     wire.request = input_.ConsumeIntegral<std::uint64_t>();
   }
-  void Fill(trailcast_wire_Glance& wire) {
+  void Fill(trailcast_wire_Snapshot& wire) {
     wire.agent = Name();
     wire.client = Name();
     wire.request = input_.ConsumeIntegral<std::uint64_t>();
@@ -546,11 +546,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case Topic::kDrives:
       FillAndTakeIn<trailcast_wire_DriveCommand>(topic, input);
       break;
-    case Topic::kGlanceRequests:
-      FillAndTakeIn<trailcast_wire_GlanceRequest>(topic, input);
+    case Topic::kSnapshotRequests:
+      FillAndTakeIn<trailcast_wire_SnapshotRequest>(topic, input);
       break;
-    case Topic::kGlances:
-      FillAndTakeIn<trailcast_wire_Glance>(topic, input);
+    case Topic::kSnapshots:
+      FillAndTakeIn<trailcast_wire_Snapshot>(topic, input);
       break;
     case Topic::kNetworkEdits:
       FillAndTakeIn<trailcast_wire_NetworkEdit>(topic, input);

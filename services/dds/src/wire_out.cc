@@ -435,15 +435,15 @@ Result<void> With(const DriveCommand& message, const UseSample& use) {
   return use(&sample);
 }
 
-Result<void> With(const GlanceRequest& message, const UseSample& use) {
-  const trailcast_wire_GlanceRequest sample{.agent = Lend(message.agent.value()),
-                                            .client = Lend(message.client.value()),
-                                            .request = message.request};
+Result<void> With(const SnapshotRequest& message, const UseSample& use) {
+  const trailcast_wire_SnapshotRequest sample{.agent = Lend(message.agent.value()),
+                                              .client = Lend(message.client.value()),
+                                              .request = message.request};
   return use(&sample);
 }
 
-Result<void> With(const Glance& message, const UseSample& use) {
-  trailcast_wire_Glance sample{};
+Result<void> With(const Snapshot& message, const UseSample& use) {
+  trailcast_wire_Snapshot sample{};
   sample.agent = Lend(message.agent.value());
   sample.client = Lend(message.client.value());
   sample.request = message.request;
@@ -570,8 +570,8 @@ const dds_topic_descriptor_t& TypeOf(Topic topic) {
                                                              &trailcast_wire_MissionRequest_desc,
                                                              &trailcast_wire_MissionReply_desc,
                                                              &trailcast_wire_DriveCommand_desc,
-                                                             &trailcast_wire_GlanceRequest_desc,
-                                                             &trailcast_wire_Glance_desc,
+                                                             &trailcast_wire_SnapshotRequest_desc,
+                                                             &trailcast_wire_Snapshot_desc,
                                                              &trailcast_wire_NetworkEdit_desc,
                                                              &trailcast_wire_NetworkRequest_desc,
                                                              &trailcast_wire_NetworkReply_desc,

@@ -306,15 +306,15 @@ Result<void> Check(const DriveCommand& message) {
   return CheckAmount("turn in rad/s", std::abs(message.turn_radps), kMaxTurn_radps);
 }
 
-Result<void> Check(const GlanceRequest& message) {
+Result<void> Check(const SnapshotRequest& message) {
   if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
   return CheckName("client", message.client.value());
 }
 
-Result<void> Check(const Glance& message) {
+Result<void> Check(const Snapshot& message) {
   if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
   if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
-  if (auto ok = CheckCount("bytes of a picture", message.picture.size(), kMaxGlanceBytes); !ok) {
+  if (auto ok = CheckCount("bytes of a picture", message.picture.size(), kMaxSnapshotBytes); !ok) {
     return ok;
   }
   return CheckText("detail", message.detail, kMaxLineBytes);

@@ -1,4 +1,4 @@
-#include "services/console/src/api/glances_api.h"
+#include "services/console/src/api/snapshots_api.h"
 
 #include <atomic>
 #include <memory>
@@ -27,18 +27,18 @@ void Look(Desk& desk, const std::string& robot, Response& response) {
     return Refuse(response, 504,
                   robot + " shows no picture: it is out of reach, or does not let others look");
   }
-  const exchange::Glance& glance = **seen;
-  if (glance.picture.empty()) return Refuse(response, 404, glance.detail);
+  const exchange::Snapshot& snapshot = **seen;
+  if (snapshot.picture.empty()) return Refuse(response, 404, snapshot.detail);
   response.set_header("Cache-Control", "no-store");
-  response.set_header("Trailcast-Seen", Printable(glance.detail));
-  response.set_header("Trailcast-Marked", glance.marked ? "1" : "0");
-  response.set_content(reinterpret_cast<const char*>(glance.picture.data()), glance.picture.size(),
-                       "image/jpeg");
+  response.set_header("Trailcast-Seen", Printable(snapshot.detail));
+  response.set_header("Trailcast-Marked", snapshot.marked ? "1" : "0");
+  response.set_content(reinterpret_cast<const char*>(snapshot.picture.data()),
+                       snapshot.picture.size(), "image/jpeg");
 }
 
 }  // namespace
 
-void ServeGlances(http::Server& server, Desk& desk) {
+void ServeSnapshots(http::Server& server, Desk& desk) {
   const auto lookers = std::make_shared<std::atomic<int>>(0);
   server.Get("/api/robots/([A-Za-z0-9_.-]{1,64})/glance",
              [lookers, &desk](const Request& request, Response& response) {

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 constexpr std::size_t kMostBytes = 12U << 10U;
 
-class GlanceTest : public ConsoleFleetTest {
+class SnapshotTest : public ConsoleFleetTest {
  protected:
   void SetUp() override {
     Teach();
@@ -54,13 +54,13 @@ class GlanceTest : public ConsoleFleetTest {
   static image::RgbImage Decoded(const Seen& seen) {
     EXPECT_LE(seen.body.size(), kMostBytes);
     const std::vector<std::uint8_t> bytes(seen.body.begin(), seen.body.end());
-    auto picture = image::DecodeRgb(bytes, "glance");
+    auto picture = image::DecodeRgb(bytes, "snapshot");
     EXPECT_TRUE(picture) << picture.error().message;
     return picture ? *picture : image::RgbImage{};
   }
 };
 
-TEST_F(GlanceTest, ShowsWhatTheCameraSeesFreeAndOnItsWayAndSaysWhenItIsDead) {
+TEST_F(SnapshotTest, ShowsWhatTheCameraSeesFreeAndOnItsWayAndSaysWhenItIsDead) {
   const Seen free = LookUntil("no turn is asked for");
   EXPECT_GT(Decoded(free).width, 0);
 
@@ -74,9 +74,9 @@ TEST_F(GlanceTest, ShowsWhatTheCameraSeesFreeAndOnItsWayAndSaysWhenItIsDead) {
   }));
   EXPECT_NE(Decoded(first).pixels, Decoded(second).pixels) << "it drives";
 
-  const Ended glance =
-      End(*Start("trailcast", {"glance", "robot1", "-o", Path("seen.jpg")}, "glance"));
-  EXPECT_EQ(glance.status, 0) << glance.output;
+  const Ended snapshot =
+      End(*Start("trailcast", {"snapshot", "robot1", "-o", Path("seen.jpg")}, "snapshot"));
+  EXPECT_EQ(snapshot.status, 0) << snapshot.output;
   EXPECT_TRUE(image::ReadRgb(Path("seen.jpg")));
 
   ASSERT_TRUE(WaitForState("available")) << Robot1().dump(2) << agent_->output();
@@ -94,21 +94,21 @@ TEST_F(GlanceTest, ShowsWhatTheCameraSeesFreeAndOnItsWayAndSaysWhenItIsDead) {
   EXPECT_THAT(Robot1().value("detail", ""), HasSubstr("camera"));
 }
 
-TEST_F(GlanceTest, NothingIsSentWhileNobodyLooks) {
+TEST_F(SnapshotTest, NothingIsSentWhileNobodyLooks) {
   dds::DdsOptions options;
   options.self = AgentId("listener");
   options.discovery_tag = tag_;
   options.network_interface = "lo";
   const auto listener =
-      dds::OpenDdsExchange(options, {.write = {}, .read = {exchange::Topic::kGlances}}).value();
+      dds::OpenDdsExchange(options, {.write = {}, .read = {exchange::Topic::kSnapshots}}).value();
   const auto heard = [&](milliseconds for_so_long) {
-    std::size_t glances = 0;
+    std::size_t snapshots = 0;
     for (const auto until = steady_clock::now() + for_so_long; steady_clock::now() < until;) {
       for (const exchange::Message& message : listener->Take(milliseconds(20))) {
-        if (std::holds_alternative<exchange::Glance>(message)) ++glances;
+        if (std::holds_alternative<exchange::Snapshot>(message)) ++snapshots;
       }
     }
-    return glances;
+    return snapshots;
   };
   Send("follow hall");
   ASSERT_TRUE(WaitForState("driving")) << Robot1().dump(2) << agent_->output();
@@ -121,7 +121,7 @@ TEST_F(GlanceTest, NothingIsSentWhileNobodyLooks) {
   EXPECT_TRUE(WaitUntil([&] { return heard(milliseconds(2000)) == 0; })) << "nobody looks";
 }
 
-TEST_F(GlanceTest, APersonSeesThePictureWhileItIsOpenInABrowser) {
+TEST_F(SnapshotTest, APersonSeesThePictureWhileItIsOpenInABrowser) {
   if (!Browser::IsThere()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
   Browser browser(folder_ / "");
   ASSERT_TRUE(browser.runs()) << browser.log();

@@ -1,4 +1,4 @@
-// This is `trailcast glance`.
+// This is `trailcast snapshot`.
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -16,25 +16,25 @@ namespace {
 
 using std::chrono::steady_clock;
 
-struct GlanceOptions {
+struct SnapshotOptions {
   std::string robot;
   std::string out = "seen.jpg";
   double timeout_s = 5.0;
 };
 
-constexpr const char* kGlanceExamples =
+constexpr const char* kSnapshotExamples =
     "Example:\n"
-    "  trailcast glance robot2 -o seen.jpg    # and what is drawn on it, in words\n"
+    "  trailcast snapshot robot2 -o seen.jpg    # and what is drawn on it, in words\n"
     "Robots show what they see while 'serve', or 'replay' or 'teach' with --server, runs; no "
     "server "
     "passes it\n"
     "on, so it is asked for in a mesh.";
 
-Result<exchange::Glance> Ask(const fleet::OperatorPeer& peer, const GlanceOptions& options) {
+Result<exchange::Snapshot> Ask(const fleet::OperatorPeer& peer, const SnapshotOptions& options) {
   // The exchange asks for a second between requests.
   constexpr std::chrono::seconds kAskAgain{1};
   constexpr std::chrono::milliseconds kTakeWait{50};
-  const exchange::GlanceRequest request{
+  const exchange::SnapshotRequest request{
       .agent = AgentId(options.robot), .client = peer.self, .request = fleet::DrawNumber()};
   const auto deadline = steady_clock::now() + ToMilliseconds(options.timeout_s);
   auto ask_at = steady_clock::now();
@@ -45,10 +45,10 @@ Result<exchange::Glance> Ask(const fleet::OperatorPeer& peer, const GlanceOption
       ask_at = steady_clock::now() + kAskAgain;
     }
     for (exchange::Message& message : peer.exchange->Take(kTakeWait)) {
-      auto* glance = std::get_if<exchange::Glance>(&message);
-      if (glance == nullptr || glance->agent != request.agent) continue;
-      if (glance->client == request.client && glance->request == request.request) {
-        return std::move(*glance);
+      auto* snapshot = std::get_if<exchange::Snapshot>(&message);
+      if (snapshot == nullptr || snapshot->agent != request.agent) continue;
+      if (snapshot->client == request.client && snapshot->request == request.request) {
+        return std::move(*snapshot);
       }
     }
   }
@@ -58,37 +58,37 @@ Result<exchange::Glance> Ask(const fleet::OperatorPeer& peer, const GlanceOption
               options.robot, options.timeout_s);
 }
 
-int Run(const CLI::App& app, program::CommonOptions common, const GlanceOptions& options) {
+int Run(const CLI::App& app, program::CommonOptions common, const SnapshotOptions& options) {
   if (const auto can = program::CanBeWritten(options.out); !can) {
     return program::Complain(app, can.error());
   }
   common.discovery = "mesh";
-  const auto peer = fleet::JoinAsOperator(common, exchange::GlanceTopics());
+  const auto peer = fleet::JoinAsOperator(common, exchange::SnapshotTopics());
   if (!peer) return program::Complain(app, peer.error());
-  const auto glance = Ask(*peer, options);
-  if (!glance) return program::Complain(app, glance.error());
-  if (glance->picture.empty()) {
+  const auto snapshot = Ask(*peer, options);
+  if (!snapshot) return program::Complain(app, snapshot.error());
+  if (snapshot->picture.empty()) {
     return program::Complain(
-        app, {ErrorCode::kUnavailable, options.robot + " has no picture: " + glance->detail});
+        app, {ErrorCode::kUnavailable, options.robot + " has no picture: " + snapshot->detail});
   }
   std::ofstream file(options.out, std::ios::binary | std::ios::trunc);
-  file.write(reinterpret_cast<const char*>(glance->picture.data()),
-             static_cast<std::streamsize>(glance->picture.size()));
+  file.write(reinterpret_cast<const char*>(snapshot->picture.data()),
+             static_cast<std::streamsize>(snapshot->picture.size()));
   file.close();
   if (!file) {
     return program::Complain(
         app, {ErrorCode::kUnavailable, "cannot write " + options.out + ": is the disk full?"});
   }
-  std::printf("%s\n", glance->detail.c_str());
+  std::printf("%s\n", snapshot->detail.c_str());
   return program::kExitOk;
 }
 
 }  // namespace
 
-Command AddGlanceCommand(CLI::App& parent, const program::CommonOptions& common) {
-  auto options = std::make_shared<GlanceOptions>();
-  CLI::App* app = parent.add_subcommand("glance", "What a robot's camera sees now, as a picture");
-  app->footer(kGlanceExamples);
+Command AddSnapshotCommand(CLI::App& parent, const program::CommonOptions& common) {
+  auto options = std::make_shared<SnapshotOptions>();
+  CLI::App* app = parent.add_subcommand("snapshot", "What a robot's camera sees now, as a picture");
+  app->footer(kSnapshotExamples);
   app->option_defaults()->always_capture_default();
   app->add_option("ROBOT", options->robot, "Its name, as --name of its agent")
       ->required()
