@@ -180,7 +180,7 @@ void Server::Receive(exchange::Message message) {
     if (network_) network_->Hear(*status);
     Replan(status->agent);
   }
-  if (const auto* followed = std::get_if<exchange::FollowedStretches>(&message);
+  if (const auto* followed = std::get_if<exchange::FollowedSections>(&message);
       followed != nullptr && network_) {
     network_->followed().Hear(*followed, NowUnixMs());
   }

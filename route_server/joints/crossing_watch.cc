@@ -4,7 +4,7 @@
 #include <map>
 
 #include "route_server/joints/meeting.h"
-#include "route_server/routes/stretch_reader.h"
+#include "route_server/routes/section_reader.h"
 #include "services/joints/near_routes.h"
 #include "services/view/key_views.h"
 
@@ -28,7 +28,7 @@ struct CrossingWatch::Teaching {
   explicit Teaching(route::RouteInfo taught)
       : info(std::move(taught)),
         near(info.key.route,
-             {.most_alike = kMostAlike, .least_views = kLeastViews, .most_stretches = 1}) {}
+             {.most_alike = kMostAlike, .least_views = kLeastViews, .most_sections = 1}) {}
 
   [[nodiscard]] JointComparer::Views Views() const {
     auto views = std::make_shared<joints::RouteViews>(info.image_width_px);
@@ -58,7 +58,7 @@ struct CrossingWatch::Doubt {
   joints::NearRoute place;
   std::string camera;
   JointComparer::Views views;               // of the teaching
-  std::optional<StretchReader> reader{};    // of the route
+  std::optional<SectionReader> reader{};    // of the route
   std::optional<std::uint64_t> compared{};  // the number under which it is being compared
 };
 

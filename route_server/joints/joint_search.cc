@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "route_server/routes/followable.h"
-#include "route_server/routes/stretch_reader.h"
+#include "route_server/routes/section_reader.h"
 #include "services/joints/near_routes.h"
 #include "services/view/key_views.h"
 
@@ -49,7 +49,7 @@ struct JointSearch::Search {
   joints::NearRouteSearch near;
 
   std::optional<std::deque<joints::NearRoute>> to_compare;  // once everything is read
-  std::optional<StretchReader> reader;                      // of one of them
+  std::optional<SectionReader> reader;                      // of one of them
   std::optional<std::uint64_t> compared;                    // the number under which it is being
                                                             // compared
   route::RouteKey with;
@@ -129,7 +129,7 @@ Result<void> JointSearch::Begin(const route::RouteKey& key) {
 }
 
 Result<void> JointSearch::Read(Search& search) {
-  if (search.next < std::min(search.info.segment_count, StretchReader::kMost)) {
+  if (search.next < std::min(search.info.segment_count, SectionReader::kMost)) {
     const auto segment = ReadSegment(store_, search.info.key, SegmentIndex(search.next));
     if (!segment) return tl::unexpected(segment.error());
     search.views->Add(*segment);

@@ -17,7 +17,7 @@ namespace {
 using mission::State;
 using mission::Task;
 using network::Leg;
-using network::Stretch;
+using network::Section;
 using LaneSet = NetworkBoard::LaneSet;
 using Why = mission::Going::Why;
 
@@ -40,15 +40,15 @@ LaneSet With(LaneSet some, const LaneSet& others) {
 }
 
 // Returns the metres along the path of a place that is within `within_m` of it.
-std::optional<double> FindOn(const std::vector<Stretch>& way, double within_m,
+std::optional<double> FindOn(const std::vector<Section>& way, double within_m,
                              const network::Place& place) {
   double before_m = 0.0;
-  for (const Stretch& stretch : way) {
-    const double driven_m = stretch.DrivenAt(place.along_m);
+  for (const Section& section : way) {
+    const double driven_m = section.DrivenAt(place.along_m);
     const bool is_on =
-        place.route == stretch.route && driven_m >= 0.0 && driven_m <= stretch.length_m();
+        place.route == section.route && driven_m >= 0.0 && driven_m <= section.length_m();
     if (is_on && before_m + driven_m <= within_m) return before_m + driven_m;
-    before_m += stretch.length_m();
+    before_m += section.length_m();
   }
   return std::nullopt;
 }
@@ -70,8 +70,8 @@ std::string Who(const mission::Record& record) {
 // The rest of a robot's path.
 struct LaneKeeper::Rest {
   mission::Going going{};        // without a destination if it was sent along routes by hand
-  std::vector<Stretch> now{};    // what it may drive,
-  std::vector<Stretch> later{};  // and what follows once it is let in
+  std::vector<Section> now{};    // what it may drive,
+  std::vector<Section> later{};  // and what follows once it is let in
   bool may_ask = false;          // it has heard of these orders and is at their end,
   bool stands = false;           // or reports that it stands there
   bool heard = false;
@@ -79,7 +79,7 @@ struct LaneKeeper::Rest {
   double speed_mps = 0.0;
 
   [[nodiscard]] bool backwards() const {
-    const std::vector<Stretch>& next = now.empty() ? later : now;
+    const std::vector<Section>& next = now.empty() ? later : now;
     return !next.empty() && next.front().backwards();
   }
 };
@@ -147,9 +147,9 @@ Result<LaneKeeper::Rest> LaneKeeper::RestOf(const mission::Record& record, Robot
     waits |= task.kind == Task::Kind::kWaitLane;
     laps |= task.laps > 1;
     if (task.kind != Task::Kind::kFollow) continue;
-    auto stretch = network_.StretchOf(*tasks, i);
-    if (!stretch) return tl::unexpected(stretch.error());
-    (waits ? rest.later : rest.now).push_back(*std::move(stretch));
+    auto section = network_.SectionOf(*tasks, i);
+    if (!section) return tl::unexpected(section.error());
+    (waits ? rest.later : rest.now).push_back(*std::move(section));
   }
   rest.heard = last.way >= rest.going.way;
   // Its report may be from before it began to drive.
@@ -162,7 +162,7 @@ Result<LaneKeeper::Rest> LaneKeeper::RestOf(const mission::Record& record, Robot
     rest.speed_mps = stand->speed_mps;
     const auto begin = rest.now.begin() + static_cast<std::ptrdiff_t>(robot.at);
     const auto found = std::find_if(begin, rest.now.end(),
-                                    [&](const Stretch& each) { return Holds(each, stand->place); });
+                                    [&](const Section& each) { return Holds(each, stand->place); });
     is_on |= found != rest.now.end();
     if (found != rest.now.end()) {
       robot.at = static_cast<std::size_t>(found - rest.now.begin());
@@ -171,7 +171,7 @@ Result<LaneKeeper::Rest> LaneKeeper::RestOf(const mission::Record& record, Robot
     }
   }
   if (robot.at < rest.now.size()) {
-    Stretch& first = rest.now[robot.at];
+    Section& first = rest.now[robot.at];
     first.BeginAt(first.AlongAfter(robot.driven_m));
   }
   rest.now.erase(rest.now.begin(), rest.now.begin() + static_cast<std::ptrdiff_t>(robot.at));
@@ -255,7 +255,7 @@ Result<bool> LaneKeeper::Settle(const AgentId& agent, Robot& robot, Time now, Li
 
 // Orders the robot to wait before zones that it may not enter.
 Result<void> LaneKeeper::Bar(const mission::Record& record, const Rest& rest, Lines& lines) {
-  std::vector<Stretch> way = rest.now;
+  std::vector<Section> way = rest.now;
   way.insert(way.end(), rest.later.begin(), rest.later.end());
   const double ahead_m =
       rest.speed_mps > 0.0 ? kHearsWithin_s * rest.speed_mps + kTakesPlace_m : 0.0;
@@ -263,7 +263,7 @@ Result<void> LaneKeeper::Bar(const mission::Record& record, const Rest& rest, Li
   if (!lanes) return tl::unexpected(lanes.error());
   const auto legs = network::LegsOf(way, *lanes, network_.HeldBy(record.mission.agent), ahead_m);
   const LaneSet before = network::LanesOn(rest.now, *lanes);
-  const LaneSet after = network::LanesOn(legs.front().stretches, *lanes);
+  const LaneSet after = network::LanesOn(legs.front().sections, *lanes);
   const LaneSet barred = Without(before, after);
   if (barred.empty()) return {};  // it is too near to be told
   const std::vector<Task> tasks = network_.TasksOf(legs);
@@ -285,19 +285,19 @@ Result<void> LaneKeeper::LetIn(const AgentId& agent, Robot& robot, Time now, Lin
   const auto lanes = network_.Lanes();
   if (!lanes) return tl::unexpected(lanes.error());
   if (!robot.waits_since) robot.waits_since = now;
-  std::vector<Stretch> way = std::move(rest->now);
+  std::vector<Section> way = std::move(rest->now);
   way.insert(way.end(), rest->later.begin(), rest->later.end());
   auto legs = network::LegsOf(way, *lanes, network_.HeldBy(agent));
-  const bool stays = legs.size() > 1 && LengthOf(legs.front().stretches) <= kThere_m;
+  const bool stays = legs.size() > 1 && LengthOf(legs.front().sections) <= kThere_m;
   std::optional<WhyNot> why_not;
   std::string because = "enters what is no longer narrow";
   if (stays) {
     // The rest of the first leg belongs to the second.
     Leg& leg = legs[1];
-    leg.through_m += LengthOf(legs.front().stretches);
-    leg.stretches.insert(leg.stretches.begin(), legs.front().stretches.begin(),
-                         legs.front().stretches.end());
-    legs.front().stretches.clear();
+    leg.through_m += LengthOf(legs.front().sections);
+    leg.sections.insert(leg.sections.begin(), legs.front().sections.begin(),
+                        legs.front().sections.end());
+    legs.front().sections.clear();
     why_not = WhyNotInto(agent, leg, now);
     because = "enters " + network_.Called(*leg.lanes.begin());
   }
@@ -338,11 +338,11 @@ std::optional<LaneKeeper::WhyNot> LaneKeeper::WhyNotInto(const AgentId& agent, c
   // There must be room beyond the zone.
   const auto* own = network_.StandOf(agent);
   const auto own_m =
-      own == nullptr || !own->now ? std::nullopt : FindOn(leg.stretches, leg.through_m, own->place);
+      own == nullptr || !own->now ? std::nullopt : FindOn(leg.sections, leg.through_m, own->place);
   for (const AgentId& other : missions_.AtWork()) {
     const auto* stand = network_.StandOf(other);
     if (other == agent || stand == nullptr || !stand->now) continue;
-    const auto at_m = FindOn(leg.stretches, leg.through_m, stand->place);
+    const auto at_m = FindOn(leg.sections, leg.through_m, stand->place);
     if (!at_m) continue;
     const double ahead_m = *at_m - own_m.value_or(0.0);
     if (ahead_m < -kBeside_m || (ahead_m < kBeside_m && agent < other)) continue;

@@ -402,40 +402,40 @@ Result<Lines> NetworkBoard::WayTo(const network::Question& question) {
   const auto way =
       NearestOf(*to, [&](const Place& each) { return network_->ShortestWay(*from, each); });
   if (!way) return tl::unexpected(way.error());
-  const auto tasks = TasksOf(way->stretches, HeldBy(AgentId(robot)));
+  const auto tasks = TasksOf(way->sections, HeldBy(AgentId(robot)));
   if (!tasks) return tl::unexpected(tasks.error());
   Lines lines;
   for (const mission::Task& task : *tasks) lines.push_back(mission::ToText(task));
   return lines;
 }
 
-mission::Task NetworkBoard::TaskOf(const network::Stretch& stretch) const {
-  return {.route = {.route = Called(KeyOf(stretch.route).route)},
-          .from_m = ToCentimetre(stretch.from_m),
-          .to_m = ToCentimetre(stretch.to_m),
-          .backwards = stretch.backwards(),
-          .speed_factor = stretch.speed};
+mission::Task NetworkBoard::TaskOf(const network::Section& section) const {
+  return {.route = {.route = Called(KeyOf(section.route).route)},
+          .from_m = ToCentimetre(section.from_m),
+          .to_m = ToCentimetre(section.to_m),
+          .backwards = section.backwards(),
+          .speed_factor = section.speed};
 }
 
-Result<network::Stretch> NetworkBoard::StretchOf(std::span<const mission::Task> tasks,
+Result<network::Section> NetworkBoard::SectionOf(std::span<const mission::Task> tasks,
                                                  std::size_t number) {
   const mission::Task& task = tasks[number];
   const auto& [name, revision] = task.route;
   const auto meant = Meant(revision == 0 ? name : fmt::format("{}@{}", name, revision));
   if (!meant) return tl::unexpected(meant.error());
-  network::Stretch stretch{.route = IdOf(meant->key),
+  network::Section section{.route = IdOf(meant->key),
                            .from_m = task.from_m,
                            .to_m = task.to_m,
                            .speed = task.speed_factor,
                            .turn_rad = mission::TurnBefore(tasks, number)};
-  double& end_m = task.backwards ? stretch.from_m : stretch.to_m;
+  double& end_m = task.backwards ? section.from_m : section.to_m;
   if (end_m <= 0.0) end_m = meant->length_m;
-  return stretch;
+  return section;
 }
 
-Result<std::optional<Condition>> NetworkBoard::FirstClosed(const network::Stretch& stretch) {
-  if (auto known = Know({KeyOf(stretch.route).route}); !known) return tl::unexpected(known.error());
-  return network_->FirstClosed(stretch);
+Result<std::optional<Condition>> NetworkBoard::FirstClosed(const network::Section& section) {
+  if (auto known = Know({KeyOf(section.route).route}); !known) return tl::unexpected(known.error());
+  return network_->FirstClosed(section);
 }
 
 Result<std::optional<Condition>> NetworkBoard::ClosedAround(const Place& place) {
@@ -448,7 +448,7 @@ std::string NetworkBoard::Called(const Condition& closed) const {
                      ToCentimetre(closed.from_m), ToCentimetre(closed.to_m));
 }
 
-Result<std::vector<network::Stretch>> NetworkBoard::WayOn(const Place& from,
+Result<std::vector<network::Section>> NetworkBoard::WayOn(const Place& from,
                                                           const std::string& goal) {
   const auto parsed = network::ParseGoal(goal);
   if (!parsed) return tl::unexpected(parsed.error());
@@ -459,10 +459,10 @@ Result<std::vector<network::Stretch>> NetworkBoard::WayOn(const Place& from,
   }
   auto way = NearestOf(*to, [&](const Place& each) { return network_->WayOn(from, each); });
   if (!way) return tl::unexpected(way.error());
-  std::erase_if(way->stretches, [](const network::Stretch& each) {
+  std::erase_if(way->sections, [](const network::Section& each) {
     return each.length_m() <= kSame_m && each.turn_rad == 0.0;
   });
-  return std::move(way->stretches);
+  return std::move(way->sections);
 }
 
 void NetworkBoard::NoteChange() {

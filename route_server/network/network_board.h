@@ -88,15 +88,15 @@ class NetworkBoard {
   // Returns where a robot last reported itself, or null if it has not.
   [[nodiscard]] const Stand* StandOf(const AgentId& agent) const { return places_.Find(agent); }
   // Returns the section of one of the orders, which must be to follow a part of a route.
-  [[nodiscard]] Result<network::Stretch> StretchOf(std::span<const mission::Task> tasks,
+  [[nodiscard]] Result<network::Section> SectionOf(std::span<const mission::Task> tasks,
                                                    std::size_t number);
-  [[nodiscard]] mission::Task TaskOf(const network::Stretch& stretch) const;
+  [[nodiscard]] mission::Task TaskOf(const network::Section& section) const;
   // Returns conditions as the network has them.
   [[nodiscard]] Result<std::optional<network::Condition>> FirstClosed(
-      const network::Stretch& stretch);
+      const network::Section& section);
   [[nodiscard]] Result<std::optional<network::Condition>> ClosedAround(const network::Place& place);
   [[nodiscard]] std::string Called(const network::Condition& closed) const;  // "hall 3..7"
-  [[nodiscard]] Result<std::vector<network::Stretch>> WayOn(const network::Place& from,
+  [[nodiscard]] Result<std::vector<network::Section>> WayOn(const network::Place& from,
                                                             const std::string& goal);
   // Returns the same place on other routes, by junctions that were found, as far as the routes run
   // together.
@@ -119,7 +119,7 @@ class NetworkBoard {
   [[nodiscard]] std::set<AgentId> TakeVacated() { return std::exchange(vacated_, {}); }
   // Returns a path as a mission has it: it waits before zones that are not open to it
   // (network::LegsOf).
-  [[nodiscard]] Result<std::vector<mission::Task>> TasksOf(std::span<const network::Stretch> way,
+  [[nodiscard]] Result<std::vector<mission::Task>> TasksOf(std::span<const network::Section> way,
                                                            const LaneSet& open);
   [[nodiscard]] std::vector<mission::Task> TasksOf(std::span<const network::Leg> legs) const;
 

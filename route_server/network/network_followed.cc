@@ -42,7 +42,7 @@ std::vector<std::string> NetworkBoard::PoorLines() const {
     const route::RouteInfo& followed = *known->second.followed;
     if (followed.key != each.key) continue;
     lines.push_back(
-        network::ToText(network::LostStretch{.route = known->second.called,
+        network::ToText(network::LostSection{.route = known->second.called,
                                              .from_m = each.from_m,
                                              .to_m = std::min(each.to_m, followed.length_m),
                                              .passed = each.passed,

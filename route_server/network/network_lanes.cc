@@ -158,7 +158,7 @@ std::string NetworkBoard::Called(std::size_t lane) const {
   return fmt::format("{} {:g}..{:g}", Called(RouteId(part.route)), part.from_m, part.to_m);
 }
 
-Result<std::vector<mission::Task>> NetworkBoard::TasksOf(std::span<const network::Stretch> way,
+Result<std::vector<mission::Task>> NetworkBoard::TasksOf(std::span<const network::Section> way,
                                                          const LaneSet& open) {
   const auto lanes = Lanes();
   if (!lanes) return tl::unexpected(lanes.error());
@@ -169,21 +169,21 @@ std::vector<mission::Task> NetworkBoard::TasksOf(std::span<const network::Leg> l
   std::vector<mission::Task> tasks;
   for (const network::Leg& leg : legs) {
     if (&leg != &legs.front()) tasks.push_back({.kind = mission::Task::Kind::kWaitLane});
-    const network::Stretch* before = nullptr;
+    const network::Section* before = nullptr;
     double turn_rad = 0.0;
-    for (const network::Stretch& stretch : leg.stretches) {
-      turn_rad += stretch.turn_rad;
-      if (stretch.length_m() <= kSame_m) continue;
+    for (const network::Section& section : leg.sections) {
+      turn_rad += section.turn_rad;
+      if (section.length_m() <= kSame_m) continue;
       if (turn_rad != 0.0) {
         tasks.push_back(
             {.kind = mission::Task::Kind::kTurn, .turn_rad = std::exchange(turn_rad, 0.0)});
       }
-      if (before != nullptr && GoesOn(*before, stretch) && before->speed == stretch.speed) {
-        tasks.back().to_m = TaskOf(stretch).to_m;
+      if (before != nullptr && GoesOn(*before, section) && before->speed == section.speed) {
+        tasks.back().to_m = TaskOf(section).to_m;
       } else {
-        tasks.push_back(TaskOf(stretch));
+        tasks.push_back(TaskOf(section));
       }
-      before = &stretch;
+      before = &section;
     }
   }
   return tasks;

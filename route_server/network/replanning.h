@@ -42,7 +42,7 @@ class Replanning {
  private:
   struct Rest;
   [[nodiscard]] Result<Rest> RestOf(const mission::Record& record);
-  static void TakeFrom(const std::vector<network::Stretch>& all, std::size_t said, bool drives,
+  static void TakeFrom(const std::vector<network::Section>& all, std::size_t said, bool drives,
                        bool laps, Rest& rest);
   [[nodiscard]] Result<std::string> Replan(const mission::Record& record, const Rest& rest);
   struct Plan;

@@ -351,20 +351,20 @@ struct NetworkReply {
 };
 
 // Following is reported for sections of this length along a route.
-inline constexpr double kFollowedStretch_m = 5.0;
+inline constexpr double kFollowedSection_m = 5.0;
 
 // trailcast/followed tells how a follower has followed a revision since its last report.
-struct FollowedStretches {
-  struct Stretch {
+struct FollowedSections {
+  struct Section {
     std::uint32_t number = 0;  // of the section, counted along the route from 0
     std::uint32_t passed = 0;  // how often the robot passed it
     std::uint32_t lost = 0;    // how often it lost its path there, found again or not
-    bool operator==(const Stretch&) const = default;
+    bool operator==(const Section&) const = default;
   };
   AgentId agent{};
   route::RouteKey key{};
-  std::vector<Stretch> stretches{};
-  bool operator==(const FollowedStretches&) const = default;
+  std::vector<Section> sections{};
+  bool operator==(const FollowedSections&) const = default;
 };
 
 // trailcast/reach_requests asks every agent and server whom it hears.
@@ -430,7 +430,7 @@ using AnyMessage =
                  CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, NowCommand,
                  NowAnswer, mission::Mission, mission::Report, MissionRequest, MissionReply,
                  DriveCommand, SnapshotRequest, Snapshot, NetworkEdit, NetworkRequest, NetworkReply,
-                 FollowedStretches, ReachRequest, ReachReport, StoreSummary, AgentGone>;
+                 FollowedSections, ReachRequest, ReachReport, StoreSummary, AgentGone>;
 
 // This is one of these types. One source file makes its copies; otherwise each file that hands
 // messages on would make its own for two dozen types, which dominates compile times.

@@ -29,7 +29,7 @@ struct NearRouteOptions {
   std::uint32_t margin = 3;      // segments added before the first match and after the last
   std::size_t most_routes = 50;  // at most so many sections of routes
   // One route gives at most so many sections; those after the first need at least so many views.
-  std::size_t most_stretches = 3;
+  std::size_t most_sections = 3;
   std::size_t least_views_again = 4;
 };
 

@@ -77,14 +77,14 @@ struct Proposal {
 };
 
 // This is a section where robots lost their path lately, so that paths over it cost more.
-struct LostStretch {
+struct LostSection {
   std::string route{};
   double from_m = 0.0;
   double to_m = 0.0;    // above from_m
   double passed = 0.0;  // times; long ago counts in part
   double lost = 0.0;    // number of these
   double cost = 1.0;    // cost of a metre in metres
-  bool operator==(const LostStretch&) const = default;
+  bool operator==(const LostSection&) const = default;
 };
 
 // This is the end of a condition that ends where its route does.
@@ -101,7 +101,7 @@ struct Listed {
   std::optional<Route> route{};  // with its name and length
   std::optional<Edit> edit{};
   std::optional<Proposal> proposal{};  // "proposed join PLACE PLACE .. confidence F"
-  std::optional<LostStretch> lost{};   // "lost ROUTE FROM..TO N of M cost F"
+  std::optional<LostSection> lost{};   // "lost ROUTE FROM..TO N of M cost F"
   // These robots are in a narrow place: "narrow .., taken by robot1 robot2".
   std::vector<std::string> taken_by{};
 };
@@ -137,9 +137,9 @@ struct Question {
     const Condition& condition);                             // "close ..", "back .." or "limit .."
 [[nodiscard]] std::string ToText(const Proposal& proposal);  // "proposed join .."
 [[nodiscard]] std::string ToText(const Lane& lane);          // "narrow .."
-[[nodiscard]] std::string ToText(const LostStretch& lost);   // "lost .."
+[[nodiscard]] std::string ToText(const LostSection& lost);   // "lost .."
 // Returns text for people: "lost hall 5..10 2 of 7 times lately, a metre counts as 1.9".
-[[nodiscard]] std::string Describe(const LostStretch& lost);
+[[nodiscard]] std::string Describe(const LostSection& lost);
 
 // Returns the conditions that hold after such an edit. Each place has at
 // most one of each kind (closed, backwards, or limited).

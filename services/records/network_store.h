@@ -34,13 +34,13 @@ struct KeptLane {
 };
 
 // How often robots passed a section of a revision and lost their path there, weighed for a moment.
-struct FollowedStretch {
+struct FollowedSection {
   route::RouteKey key{};
   std::int64_t number = 0;  // its position along the route
   double passed = 0.0;
   double lost = 0.0;
   std::int64_t at_unix_ms = 0;
-  bool operator==(const FollowedStretch&) const = default;
+  bool operator==(const FollowedSection&) const = default;
 };
 
 // Keeps the network in a SQLite file of its own, created if missing: junctions, conditions on
@@ -74,7 +74,7 @@ class NetworkStore {
   // Returns the revisions that were searched for junctions.
   [[nodiscard]] Result<std::vector<std::string>> Searched();
   [[nodiscard]] Result<std::vector<KeptLane>> Lanes();
-  [[nodiscard]] Result<std::vector<FollowedStretch>> Followed();  // the oldest first
+  [[nodiscard]] Result<std::vector<FollowedSection>> Followed();  // the oldest first
 
   // Replaces the junction from and to the same places. `by` says who decided it; the time is by the
   // caller's clock.
@@ -105,7 +105,7 @@ class NetworkStore {
   [[nodiscard]] Result<void> Release(std::span<const std::int64_t> lanes, const AgentId& agent);
   // Replaces what is kept of the same sections, all or nothing. Beyond kMostFollowed the oldest are
   // deleted.
-  [[nodiscard]] Result<void> Put(std::span<const FollowedStretch> followed);
+  [[nodiscard]] Result<void> Put(std::span<const FollowedSection> followed);
   // Drops the proposals of a revision that has left the store.
   [[nodiscard]] Result<void> DropProposals(const std::string& revision);
 

@@ -153,7 +153,7 @@ std::string CountText(const RouteDiff& diff) {
   return text + size(diff.a) + " and " + size(diff.b);
 }
 
-std::string StretchText(double begin, double end) {
+std::string SectionText(double begin, double end) {
   return fmt::format("{:.1f}..{:.1f}", begin, end);
 }
 
@@ -171,8 +171,8 @@ std::string DiffText(const RouteDiff& diff) {
   }
   for (const Part& part : differing) {
     text +=
-        fmt::format("{:>18}  {:>18}  {:>6}  {:>5}  {:>5}  {}\n", StretchText(part.begin, part.end),
-                    StretchText(part.begin_b, part.end_b), Percent(part), part.went(), part.came,
+        fmt::format("{:>18}  {:>18}  {:>6}  {:>5}  {:>5}  {}\n", SectionText(part.begin, part.end),
+                    SectionText(part.begin_b, part.end_b), Percent(part), part.went(), part.came,
                     found.refreshed ? "0" : AsideText(part.aside_m));
   }
   if (differing.empty() && !found.parts.empty()) {

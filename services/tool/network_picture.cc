@@ -45,7 +45,7 @@ class Reader {
 
   void TakeProposal(const network::Proposal& proposal) { TakeJoint(proposal.joint, false); }
 
-  void TakeLost(const network::LostStretch& lost) {
+  void TakeLost(const network::LostSection& lost) {
     Mark(lost.route, {NetworkPicture::Part::kLost, lost.from_m, lost.to_m});
   }
 

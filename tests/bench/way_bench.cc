@@ -66,7 +66,7 @@ void ShortestWay(benchmark::State& state) {
   const Network network = site.Made();
   double most_ms = 0.0;
   double found = 0.0;
-  double stretches = 0.0;
+  double sections = 0.0;
   for ([[maybe_unused]] auto _ : state) {
     const Place from = site.Anywhere();
     const Place to = site.Anywhere();
@@ -75,11 +75,11 @@ void ShortestWay(benchmark::State& state) {
     most_ms = std::max(most_ms, 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
     if (!way) continue;
     found += 1.0;
-    stretches += static_cast<double>(way->stretches.size());
+    sections += static_cast<double>(way->sections.size());
   }
   state.counters["most_ms"] = most_ms;
   state.counters["found"] = found / static_cast<double>(state.iterations());
-  state.counters["stretches"] = found > 0.0 ? stretches / found : 0.0;
+  state.counters["stretches"] = found > 0.0 ? sections / found : 0.0;
 }
 BENCHMARK(ShortestWay)
     ->ArgName("reach")

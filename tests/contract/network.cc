@@ -87,7 +87,7 @@ Message ProbeFor(Topic topic) {
     case Topic::kNetworkReplies:
       return exchange::NetworkReply{.server = kProbe, .client = kProbe};
     case Topic::kFollowed:
-      return exchange::FollowedStretches{.agent = kProbe, .key = key};
+      return exchange::FollowedSections{.agent = kProbe, .key = key};
     case Topic::kReachRequests:
       return exchange::ReachRequest{.client = kProbe};
     case Topic::kReachReports:
@@ -128,7 +128,7 @@ bool IsProbe(const Message& message) {
     AgentId operator()(const exchange::NetworkEdit& m) { return m.client; }
     AgentId operator()(const exchange::NetworkRequest& m) { return m.client; }
     AgentId operator()(const exchange::NetworkReply& m) { return m.server; }
-    AgentId operator()(const exchange::FollowedStretches& m) { return m.agent; }
+    AgentId operator()(const exchange::FollowedSections& m) { return m.agent; }
     AgentId operator()(const exchange::ReachRequest& m) { return m.client; }
     AgentId operator()(const exchange::ReachReport& m) { return m.agent; }
     AgentId operator()(const exchange::StoreSummary& m) { return m.server; }

@@ -279,14 +279,14 @@ TEST_P(RouteExchangeContract, CarriesWordsOfTheNetwork) {
                   Topic::kNetworkReplies);
 }
 
-TEST_P(RouteExchangeContract, CarriesHowStretchesWereFollowed) {
+TEST_P(RouteExchangeContract, CarriesHowSectionsWereFollowed) {
   constexpr std::uint32_t kMost = exchange::kMaxTimesPassed;
   ExpectRoundTrip(
-      exchange::FollowedStretches{
+      exchange::FollowedSections{
           .agent = AgentId("r"),
           .key = KeyNumber(1),
-          .stretches = std::vector(exchange::kMaxStretchesTold,
-                                   exchange::FollowedStretches::Stretch{7, kMost, kMost})},
+          .sections = std::vector(exchange::kMaxSectionsTold,
+                                  exchange::FollowedSections::Section{7, kMost, kMost})},
       Topic::kFollowed);
 }
 

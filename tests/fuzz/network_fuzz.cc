@@ -96,8 +96,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           built->ShortestWay({from.id, from.length_m / 3.0}, {to.id, to.length_m / 2.0});
       if (!way) continue;
       Require(way->length_m >= 0.0, "a way is no less than nothing");
-      for (const network::Stretch& stretch : way->stretches) {
-        Require(stretch.from_m < stretch.to_m && stretch.speed > 0.0, "a stretch leads ahead");
+      for (const network::Section& section : way->sections) {
+        Require(section.from_m < section.to_m && section.speed > 0.0, "a section leads ahead");
       }
     }
   }

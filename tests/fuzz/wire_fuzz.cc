@@ -209,14 +209,13 @@ class Samples {
     wire.followers._length = Count();
     wire.followers._buffer = Many<trailcast_wire_RouteFollower>(followers_, wire.followers._length);
   }
-  void Fill(trailcast_wire_FollowedStretches& wire) {
+  void Fill(trailcast_wire_FollowedSections& wire) {
     wire.agent = Name();
     Fill(wire.on);
-    wire.stretches._length = Count();
-    wire.stretches._buffer =
-        Many<trailcast_wire_FollowedStretch>(stretches_, wire.stretches._length);
+    wire.sections._length = Count();
+    wire.sections._buffer = Many<trailcast_wire_FollowedSection>(sections_, wire.sections._length);
   }
-  void Fill(trailcast_wire_FollowedStretch& wire) {
+  void Fill(trailcast_wire_FollowedSection& wire) {
     wire.number = input_.ConsumeIntegral<std::uint32_t>();
     wire.passed = input_.ConsumeIntegral<std::uint32_t>();
     wire.lost = input_.ConsumeIntegral<std::uint32_t>();
@@ -447,7 +446,7 @@ class Samples {
   std::deque<std::vector<trailcast_wire_ViewFeature>> view_;
   std::deque<std::vector<trailcast_wire_ClaimedName>> claimed_;
   std::deque<std::vector<trailcast_wire_RouteFollower>> followers_;
-  std::deque<std::vector<trailcast_wire_FollowedStretch>> stretches_;
+  std::deque<std::vector<trailcast_wire_FollowedSection>> sections_;
   std::deque<std::vector<trailcast_wire_MissionRecord>> missions_;
   std::deque<std::vector<trailcast_wire_GivenCommand>> commands_;
   std::deque<std::vector<trailcast_wire_NowAnswer>> answers_;
@@ -562,7 +561,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       FillAndTakeIn<trailcast_wire_NetworkReply>(topic, input);
       break;
     case Topic::kFollowed:
-      FillAndTakeIn<trailcast_wire_FollowedStretches>(topic, input);
+      FillAndTakeIn<trailcast_wire_FollowedSections>(topic, input);
       break;
     case Topic::kReachRequests:
       FillAndTakeIn<trailcast_wire_ReachRequest>(topic, input);

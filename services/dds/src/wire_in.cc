@@ -387,10 +387,10 @@ Message From(const trailcast_wire_NetworkReply& wire) {
                       .error = Text(wire.error)};
 }
 
-Message From(const trailcast_wire_FollowedStretches& wire) {
-  FollowedStretches all{.agent = AgentId(Text(wire.agent)), .key = From(wire.on)};
-  for (const trailcast_wire_FollowedStretch& each : Elements(wire.stretches)) {
-    all.stretches.push_back({.number = each.number, .passed = each.passed, .lost = each.lost});
+Message From(const trailcast_wire_FollowedSections& wire) {
+  FollowedSections all{.agent = AgentId(Text(wire.agent)), .key = From(wire.on)};
+  for (const trailcast_wire_FollowedSection& each : Elements(wire.sections)) {
+    all.sections.push_back({.number = each.number, .passed = each.passed, .lost = each.lost});
   }
   return all;
 }
@@ -494,7 +494,7 @@ Message Copy(Topic topic, const void* sample) {
     case Topic::kNetworkReplies:
       return From(*static_cast<const trailcast_wire_NetworkReply*>(sample));
     case Topic::kFollowed:
-      return From(*static_cast<const trailcast_wire_FollowedStretches*>(sample));
+      return From(*static_cast<const trailcast_wire_FollowedSections*>(sample));
     case Topic::kReachRequests:
       return From(*static_cast<const trailcast_wire_ReachRequest*>(sample));
     case Topic::kReachReports:

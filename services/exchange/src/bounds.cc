@@ -340,15 +340,15 @@ Result<void> Check(const NetworkReply& message) {
   return CheckText("error", message.error, kMaxLineBytes);
 }
 
-Result<void> Check(const FollowedStretches& message) {
+Result<void> Check(const FollowedSections& message) {
   if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
   if (auto ok = CheckKey(message.key); !ok) return ok;
-  if (auto ok = CheckCount("stretches", message.stretches.size(), kMaxStretchesTold); !ok) {
+  if (auto ok = CheckCount("sections", message.sections.size(), kMaxSectionsTold); !ok) {
     return ok;
   }
-  constexpr auto kMost = static_cast<std::size_t>(kMaxLength_m / kFollowedStretch_m);
-  for (const FollowedStretches::Stretch& each : message.stretches) {
-    if (auto ok = CheckCount("number of a stretch", each.number, kMost); !ok) return ok;
+  constexpr auto kMost = static_cast<std::size_t>(kMaxLength_m / kFollowedSection_m);
+  for (const FollowedSections::Section& each : message.sections) {
+    if (auto ok = CheckCount("number of a section", each.number, kMost); !ok) return ok;
     if (auto ok = CheckCount("times passed", each.passed, kMaxTimesPassed); !ok) return ok;
     if (auto ok = CheckCount("times lost, of those passed", each.lost, each.passed); !ok) return ok;
   }

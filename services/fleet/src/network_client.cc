@@ -86,7 +86,7 @@ Json LaneJson(const network::Lane& lane, const Lines& taken_by) {
   return {{"parts", std::move(parts)}, {"taken_by", taken_by}};
 }
 
-Json LostJson(const network::LostStretch& lost) {
+Json LostJson(const network::LostSection& lost) {
   Json json = PartJson(lost.route, lost.from_m, lost.to_m);
   json.update({{"passed", lost.passed}, {"lost", lost.lost}, {"cost", lost.cost}});
   return json;
@@ -103,20 +103,20 @@ bool IsAbout(const Lines& routes, std::span<const std::string> of) {
 }
 
 // Returns the sections of a path, or none for orders that are no path.
-std::vector<network::Stretch> StretchesOf(const Lines& way) {
+std::vector<network::Section> SectionsOf(const Lines& way) {
   const auto tasks = mission::ParseOrders(fmt::format("goto there {}", fmt::join(way, " ")))
                          .value_or(std::vector<mission::Task>{});
-  std::vector<network::Stretch> stretches;
+  std::vector<network::Section> sections;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const mission::Task& task = tasks[i];
     if (task.kind != mission::Task::Kind::kFollow) continue;
-    stretches.push_back({.route = task.route.route,
-                         .from_m = task.from_m,
-                         .to_m = task.to_m,
-                         .speed = task.speed_factor,
-                         .turn_rad = mission::TurnBefore(tasks, i)});
+    sections.push_back({.route = task.route.route,
+                        .from_m = task.from_m,
+                        .to_m = task.to_m,
+                        .speed = task.speed_factor,
+                        .turn_rad = mission::TurnBefore(tasks, i)});
   }
-  return stretches;
+  return sections;
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ Result<std::string> OrdersAlong(const Lines& way, const std::string& to) {
   std::string orders = fmt::format("goto {} {}", to, fmt::join(way, " "));
   if (orders.size() <= exchange::kMaxLineBytes) return orders;
   return Fail(ErrorCode::kInvalidArgument,
-              "the way has {} stretches, more than one mission holds: send it to a place on the "
+              "the way has {} sections, more than one mission holds: send it to a place on the "
               "way first ('trailcast network way' shows it)",
               way.size());
 }
@@ -262,20 +262,20 @@ Json PassingJson(const network::Passings& passings) {
 std::string WayText(const Lines& way) {
   if (way.empty()) return "it is there already\n";
   std::string text;
-  for (const std::string& stretch : way) text += stretch + "\n";
-  return text + fmt::format("{:.1f} m\n", network::LengthOf(StretchesOf(way)));
+  for (const std::string& section : way) text += section + "\n";
+  return text + fmt::format("{:.1f} m\n", network::LengthOf(SectionsOf(way)));
 }
 
 Json WayJson(const Lines& way) {
-  const auto way_stretches = StretchesOf(way);
-  Json stretches = Json::array();
-  for (const network::Stretch& each : way_stretches) {
-    Json stretch = With(PartJson(each.route, each.from_m, each.to_m), "speed", each.speed);
-    if (each.turn_rad != 0.0) stretch["turn_rad"] = Rounded(each.turn_rad, 1000.0);
-    stretches.push_back(std::move(stretch));
+  const auto way_sections = SectionsOf(way);
+  Json sections = Json::array();
+  for (const network::Section& each : way_sections) {
+    Json section = With(PartJson(each.route, each.from_m, each.to_m), "speed", each.speed);
+    if (each.turn_rad != 0.0) section["turn_rad"] = Rounded(each.turn_rad, 1000.0);
+    sections.push_back(std::move(section));
   }
-  return {{"length_m", Rounded(network::LengthOf(way_stretches), 100.0)},
-          {"stretches", std::move(stretches)}};
+  return {{"length_m", Rounded(network::LengthOf(way_sections), 100.0)},
+          {"stretches", std::move(sections)}};
 }
 
 std::string ChangesText(const network::History& history, std::int64_t since_unix_ms,

@@ -361,8 +361,8 @@ std::vector<Part> Differing(std::span<const Part> parts) {
     if (!differs(i)) continue;
     const std::size_t first = i;
     while (i + 1 < parts.size() && differs(i + 1)) ++i;
-    const Part stretch = Together(parts.subspan(first, i + 1 - first));
-    if (has_fewer(stretch) || is_aside(stretch)) differing.push_back(stretch);
+    const Part section = Together(parts.subspan(first, i + 1 - first));
+    if (has_fewer(section) || is_aside(section)) differing.push_back(section);
   }
   return differing;
 }

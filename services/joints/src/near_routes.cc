@@ -67,7 +67,7 @@ std::vector<NearRoute> NearRouteSearch::Found() const {
     std::sort(of_route.begin(), of_route.end(), [](const auto& one, const auto& other) {
       return one.view != other.view ? one.view < other.view : one.segment > other.segment;
     });
-    for (std::size_t i = 0; i < options_.most_stretches && !of_route.empty(); ++i) {
+    for (std::size_t i = 0; i < options_.most_sections && !of_route.empty(); ++i) {
       NearRoute found = LongestInOrder(key, of_route);
       if (found.views < (i == 0 ? options_.least_views : options_.least_views_again)) break;
       found.first =

@@ -102,11 +102,11 @@ class Parser {
   [[nodiscard]] Result<void> CheckOnWay(const Task& task, const std::vector<Task>& before) const {
     if (!going_) return {};
     const bool ends = !before.empty() && before.back().kind == Task::Kind::kWaitWay;
-    const bool is_stretch = task.kind == Task::Kind::kFollow && task.laps == 1 &&
+    const bool is_section = task.kind == Task::Kind::kFollow && task.laps == 1 &&
                             (task.backwards ? task.from_m : task.to_m) > 0.0;
     const bool is_turn = task.kind == Task::Kind::kTurn;
     const bool waits = task.kind == Task::Kind::kWaitWay || task.kind == Task::Kind::kWaitLane;
-    if (!ends && (is_stretch || is_turn || waits)) return {};
+    if (!ends && (is_section || is_turn || waits)) return {};
     return Wrong(ToText(task), kWay);
   }
 

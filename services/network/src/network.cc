@@ -21,18 +21,18 @@ constexpr double kClosedCosts = 1e15;
 
 }  // namespace
 
-void Stretch::BeginAt(double along_m) {
+void Section::BeginAt(double along_m) {
   from_m = AlongAfter(std::clamp(DrivenAt(along_m), 0.0, length_m()));
 }
 
-bool GoesOn(const Stretch& before, const Stretch& next) {
+bool GoesOn(const Section& before, const Section& next) {
   return before.route == next.route && std::abs(before.to_m - next.from_m) <= kSame_m &&
          before.backwards() == next.backwards() && next.turn_rad == 0.0;
 }
 
-double LengthOf(std::span<const Stretch> stretches) {
+double LengthOf(std::span<const Section> sections) {
   double length_m = 0.0;
-  for (const Stretch& stretch : stretches) length_m += stretch.length_m();
+  for (const Section& section : sections) length_m += section.length_m();
   return length_m;
 }
 
@@ -276,21 +276,21 @@ Way Network::WayOf(const std::vector<Drive>& drives) const {
     while (at_m != drive.to_m) {
       const double end_m = back ? std::max(nodes_[i].along_m, drive.to_m)
                                 : std::min(nodes_[i + 1].along_m, drive.to_m);
-      if (goes_on && way.stretches.back().speed == nodes_[i].speed) {
-        way.stretches.back().to_m = end_m;
+      if (goes_on && way.sections.back().speed == nodes_[i].speed) {
+        way.sections.back().to_m = end_m;
       } else {
-        way.stretches.push_back({.route = routes_[drive.route].id,
-                                 .from_m = at_m,
-                                 .to_m = end_m,
-                                 .speed = nodes_[i].speed,
-                                 .turn_rad = std::exchange(turn_rad, 0.0)});
+        way.sections.push_back({.route = routes_[drive.route].id,
+                                .from_m = at_m,
+                                .to_m = end_m,
+                                .speed = nodes_[i].speed,
+                                .turn_rad = std::exchange(turn_rad, 0.0)});
         goes_on = true;
       }
       at_m = end_m;
       i += back ? -1 : 1;
     }
   }
-  way.length_m = LengthOf(way.stretches);
+  way.length_m = LengthOf(way.sections);
   return way;
 }
 
@@ -357,15 +357,15 @@ Network::WayOut Network::OutOf(const Spot& spot) const {
   return {.open = closed, .from = spot};
 }
 
-std::optional<Condition> Network::FirstClosed(const Stretch& stretch) const {
-  const auto begin = Find({stretch.route, stretch.from_m});
+std::optional<Condition> Network::FirstClosed(const Section& section) const {
+  const auto begin = Find({section.route, section.from_m});
   if (!begin) return std::nullopt;
   const WayOut out = OutOf(*begin);
   const Index at = NodeAt(out.from);
-  const Index last = NodeAt({begin->route, stretch.to_m});
-  if (!stretch.backwards()) {
+  const Index last = NodeAt({begin->route, section.to_m});
+  if (!section.backwards()) {
     for (Index i = std::max(at, out.open.end); i <= last; ++i) {
-      if (nodes_[i].closed && nodes_[i].along_m < stretch.to_m) {
+      if (nodes_[i].closed && nodes_[i].along_m < section.to_m) {
         return ClosedBetween(ClosedAbout(i));
       }
     }

@@ -162,28 +162,28 @@ Result<Edit> TakeVerdict(Words& words, Edit::Kind kind) {
 }
 
 // Parses ROUTE [FROM..TO].
-Result<Condition> TakeStretch(Words& words) {
-  Condition stretch{.route = std::string(words.Take()), .to_m = kToTheEnd_m};
-  if (stretch.route.empty()) return Wrong("", "a route, by its name or id");
+Result<Condition> TakeSection(Words& words) {
+  Condition section{.route = std::string(words.Take()), .to_m = kToTheEnd_m};
+  if (section.route.empty()) return Wrong("", "a route, by its name or id");
   const std::string_view word = words.Next();
-  if (word.find("..") == std::string_view::npos) return stretch;
+  if (word.find("..") == std::string_view::npos) return section;
   (void)words.Take();
   const auto part = ParseRange(word, 0.0, kToTheEnd_m);
   if (part) {
-    stretch.from_m = part->from.value_or(0.0);
-    stretch.to_m = part->to.value_or(kToTheEnd_m);
+    section.from_m = part->from.value_or(0.0);
+    section.to_m = part->to.value_or(kToTheEnd_m);
   }
-  if (!part || stretch.to_m <= stretch.from_m) {
+  if (!part || section.to_m <= section.from_m) {
     return Wrong(word, "FROM..TO in metres along the route, as 3..10, 3.. or ..10");
   }
-  return stretch;
+  return section;
 }
 
 // Parses ROUTE FROM..TO [ROUTE FROM..TO ...].
 Result<Lane> TakeLane(Words& words) {
   Lane lane;
   do {
-    auto part = TakeStretch(words);
+    auto part = TakeSection(words);
     if (!part) return tl::unexpected(part.error());
     if (part->to_m >= kToTheEnd_m) {
       return Wrong(part->route, "a route and FROM..TO, both in metres along it, as hall 3..7");
@@ -245,9 +245,9 @@ Result<Edit> ParseEdit(std::string_view text) {
   } else {
     return Wrong(first, kEdits);
   }
-  auto stretch = TakeStretch(words);
-  if (!stretch) return tl::unexpected(stretch.error());
-  edit.condition = *std::move(stretch);
+  auto section = TakeSection(words);
+  if (!section) return tl::unexpected(section.error());
+  edit.condition = *std::move(section);
   edit.condition.closed = edit.kind == Edit::Kind::kClose;
   edit.condition.backed = edit.kind == Edit::Kind::kBack;
   if (edit.kind == Edit::Kind::kLimit) {
@@ -271,17 +271,17 @@ std::optional<Proposal> ParseProposal(std::string_view text) {
 }
 
 // Parses ROUTE FROM..TO N of M cost F.
-std::optional<LostStretch> ParseLost(std::string_view text) {
+std::optional<LostSection> ParseLost(std::string_view text) {
   Words words(text);
-  auto stretch = TakeStretch(words);
+  auto section = TakeSection(words);
   const auto lost = ParseNumber<double>(words.Take());
   const bool of = words.TakeIf("of");
   const auto passed = ParseNumber<double>(words.Take());
   const bool costs = words.TakeIf("cost");
   const auto cost = ParseNumberWithin(words.Take(), 1.0, kMostFactor);
-  if (!stretch || !lost || !of || !passed || !costs || !cost || !words.empty()) return std::nullopt;
-  return LostStretch{
-      std::move(stretch->route), stretch->from_m, stretch->to_m, *passed, *lost, *cost};
+  if (!section || !lost || !of || !passed || !costs || !cost || !words.empty()) return std::nullopt;
+  return LostSection{
+      std::move(section->route), section->from_m, section->to_m, *passed, *lost, *cost};
 }
 
 }  // namespace
@@ -391,18 +391,18 @@ std::string ToText(const Lane& lane) {
 
 namespace {
 
-std::string LostTimes(const LostStretch& lost) {
+std::string LostTimes(const LostSection& lost) {
   return fmt::format("{}{} {}..{} {:g} of {:g}", kLost, lost.route, Metres(lost.from_m),
                      Metres(lost.to_m), lost.lost, lost.passed);
 }
 
 }  // namespace
 
-std::string ToText(const LostStretch& lost) {
+std::string ToText(const LostSection& lost) {
   return fmt::format("{} cost {:g}", LostTimes(lost), lost.cost);
 }
 
-std::string Describe(const LostStretch& lost) {
+std::string Describe(const LostSection& lost) {
   return fmt::format("{} times lately, a metre counts as {:g}", LostTimes(lost), lost.cost);
 }
 

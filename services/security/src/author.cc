@@ -31,7 +31,7 @@ struct AuthorIn {
   AgentId operator()(const exchange::NetworkEdit& m) { return m.client; }
   AgentId operator()(const exchange::NetworkRequest& m) { return m.client; }
   AgentId operator()(const exchange::NetworkReply& m) { return m.server; }
-  AgentId operator()(const exchange::FollowedStretches& m) { return m.agent; }
+  AgentId operator()(const exchange::FollowedSections& m) { return m.agent; }
   AgentId operator()(const exchange::ReachRequest& m) { return m.client; }
   AgentId operator()(const exchange::ReachReport& m) { return m.agent; }
   AgentId operator()(const exchange::StoreSummary& m) { return m.server; }

@@ -21,43 +21,43 @@ using mission::State;
 
 // A server makes orders longer where it leads the robot another way.
 constexpr std::size_t kMostOrdersBytes = exchange::kMaxLineBytes / 2;
-constexpr double kLeastStretch_m = 0.02;
+constexpr double kLeastSection_m = 0.02;
 // A robot's place may be off the section that it is on by this.
-constexpr double kOffStretch_m = 0.5;
+constexpr double kOffSection_m = 0.5;
 constexpr double kReached_m = 0.05;
 constexpr std::size_t kMostOwn = 32;
 
 double ToCentimetres(double metres) { return std::round(100.0 * metres) / 100.0; }
 
 // Returns them with the turns before them; `of` gets the task of each section.
-std::vector<mission::Task> TasksAlong(const std::vector<network::Stretch>& stretches,
+std::vector<mission::Task> TasksAlong(const std::vector<network::Section>& sections,
                                       std::vector<std::uint32_t>& of) {
   std::vector<mission::Task> tasks;
   of.clear();
-  for (const network::Stretch& stretch : stretches) {
-    if (stretch.turn_rad != 0.0) {
-      tasks.push_back({.kind = mission::Task::Kind::kTurn, .turn_rad = stretch.turn_rad});
+  for (const network::Section& section : sections) {
+    if (section.turn_rad != 0.0) {
+      tasks.push_back({.kind = mission::Task::Kind::kTurn, .turn_rad = section.turn_rad});
     }
     of.push_back(static_cast<std::uint32_t>(tasks.size()));
     tasks.push_back(
-        {.route = route::ParseRouteRef(stretch.route).value_or(route::RouteRef{stretch.route}),
-         .from_m = ToCentimetres(stretch.from_m),
-         .to_m = ToCentimetres(stretch.to_m),
-         .backwards = stretch.backwards(),
-         .speed_factor = stretch.speed});
+        {.route = route::ParseRouteRef(section.route).value_or(route::RouteRef{section.route}),
+         .from_m = ToCentimetres(section.from_m),
+         .to_m = ToCentimetres(section.to_m),
+         .backwards = section.backwards(),
+         .speed_factor = section.speed});
   }
   return tasks;
 }
 
-void Append(std::vector<network::Stretch>& way, const network::Way& more) {
-  for (const network::Stretch& stretch : more.stretches) {
-    if (stretch.length_m() < kLeastStretch_m) continue;
-    const bool goes_on = !way.empty() && network::GoesOn(way.back(), stretch) &&
-                         way.back().speed == stretch.speed && stretch.turn_rad == 0.0;
+void Append(std::vector<network::Section>& way, const network::Way& more) {
+  for (const network::Section& section : more.sections) {
+    if (section.length_m() < kLeastSection_m) continue;
+    const bool goes_on = !way.empty() && network::GoesOn(way.back(), section) &&
+                         way.back().speed == section.speed && section.turn_rad == 0.0;
     if (goes_on) {
-      way.back().to_m = stretch.to_m;
+      way.back().to_m = section.to_m;
     } else {
-      way.push_back(stretch);
+      way.push_back(section);
     }
   }
 }
@@ -103,7 +103,7 @@ void Vehicle::BeginLeg(const Graph& graph, Time now) {
   auto at = graph.Find(nodes[held_->at].id).map([](const Graph::Node& node) { return node.place; });
   if (!at) return fail(nodes[held_->at].id, at.error().message);
   if (stood_ && graph.IsOn(*stood_, *at)) at = *stood_;
-  std::vector<network::Stretch> way;
+  std::vector<network::Section> way;
   std::vector<std::uint32_t> of;
   std::vector<Leg::Mark> marks;
   std::string orders;
@@ -139,7 +139,7 @@ void Vehicle::BeginLeg(const Graph& graph, Time now) {
                                         .valid_for_s = kValidFor_s}),
              .began = now,
              .say_at = now,
-             .stretches = std::move(way),
+             .sections = std::move(way),
              .tasks = std::move(of),
              .marks = std::move(marks)};
 }
@@ -157,19 +157,19 @@ void Vehicle::Progress() {
   const bool drives = last.state == State::kUnderWay || last.state == State::kPaused;
   if (!drives || !status_.place) return;
   std::size_t on = leg_->on;
-  while (last.way <= 1 && on + 1 < leg_->stretches.size() && leg_->tasks[on] < last.task) ++on;
-  const auto holds = [&](const network::Stretch& stretch) {
-    const double driven_m = stretch.DrivenAt(status_.place->along_m);
-    return stretch.route == status_.route && driven_m >= -kOffStretch_m &&
-           driven_m <= stretch.length_m() + kOffStretch_m;
+  while (last.way <= 1 && on + 1 < leg_->sections.size() && leg_->tasks[on] < last.task) ++on;
+  const auto holds = [&](const network::Section& section) {
+    const double driven_m = section.DrivenAt(status_.place->along_m);
+    return section.route == status_.route && driven_m >= -kOffSection_m &&
+           driven_m <= section.length_m() + kOffSection_m;
   };
-  while (on < leg_->stretches.size() && !holds(leg_->stretches[on])) ++on;
-  if (on == leg_->stretches.size()) return;
+  while (on < leg_->sections.size() && !holds(leg_->sections[on])) ++on;
+  if (on == leg_->sections.size()) return;
   leg_->on = on;
-  const network::Stretch& stretch = leg_->stretches[on];
-  const auto before = std::span(leg_->stretches).first(on);
+  const network::Section& section = leg_->sections[on];
+  const auto before = std::span(leg_->sections).first(on);
   leg_->driven_m = network::LengthOf(before) +
-                   std::clamp(stretch.DrivenAt(status_.place->along_m), 0.0, stretch.length_m());
+                   std::clamp(section.DrivenAt(status_.place->along_m), 0.0, section.length_m());
   while (leg_->marks.size() > 1 && leg_->driven_m >= leg_->marks.front().driven_m - kReached_m) {
     leg_->from_m = leg_->marks.front().driven_m;
     NoteReached(leg_->marks.front().node);

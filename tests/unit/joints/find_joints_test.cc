@@ -257,7 +257,7 @@ TEST(FindJoints, LeavesOutWhatWasDrivenBackwards) {
       IsEmpty());
 }
 
-TEST(FindJoints, FindsEachOfTwoStretches) {
+TEST(FindJoints, FindsEachOfTwoSections) {
   const auto building = Building(1);
   auto poses = Straight(0.0, 4.8);
   for (const Pose& pose : Round(0.9)) poses.push_back({4.8 + pose.x, pose.y, pose.heading});

@@ -54,7 +54,7 @@ TEST(NearRoutes, PutTheOneFirstThatIsAlikeForLonger) {
   EXPECT_EQ(near[1].first.value(), 0U);
 }
 
-TEST(NearRoutes, AreTwoStretchesOfOneThatIsMetInAnotherOrder) {
+TEST(NearRoutes, AreTwoSectionsOfOneThatIsMetInAnotherOrder) {
   auto index = IndexOf({{'a', Route(0, 40)}});
   auto route = Route(30, 36);
   for (const route::Segment& segment : Route(5, 9)) route.push_back(segment);

@@ -137,7 +137,7 @@ TEST(NetworkWords, AProposalIsListedAsTheJointThatItWouldMakeAndNoSurerThanItIs)
 }
 
 TEST(NetworkWords, WhereRobotsWereLostIsListedAndNoEdit) {
-  const LostStretch lost{"hall", 5.0, 10.0, 7.0, 1.8, 1.8};
+  const LostSection lost{"hall", 5.0, 10.0, 7.0, 1.8, 1.8};
   const std::string line = ToText(lost);
   EXPECT_EQ(line, "lost hall 5..10 1.8 of 7 cost 1.8");
   EXPECT_EQ(Describe(lost), "lost hall 5..10 1.8 of 7 times lately, a metre counts as 1.8");

@@ -152,18 +152,18 @@ TEST_F(NetworkStoreTest, AnotherFileIsLeftAlone) {
   EXPECT_EQ(NetworkStore::Open(folder_ / "text").error().code, ErrorCode::kCorrupt);
 }
 
-TEST_F(NetworkStoreTest, HowStretchesWereFollowedIsThereAfterARestartAndTheOldestGoes) {
-  const FollowedStretch first{{RouteId("a"), TeachingId(1)}, 0, 3.5, 0.5, 2000};
-  const FollowedStretch other{{RouteId("a"), TeachingId(1)}, 1, 1.0, 1.0, 1000};
+TEST_F(NetworkStoreTest, HowSectionsWereFollowedIsThereAfterARestartAndTheOldestGoes) {
+  const FollowedSection first{{RouteId("a"), TeachingId(1)}, 0, 3.5, 0.5, 2000};
+  const FollowedSection other{{RouteId("a"), TeachingId(1)}, 1, 1.0, 1.0, 1000};
   ASSERT_TRUE(store_->Put(std::vector{first, other}));
   Reopen();
   EXPECT_THAT(store_->Followed().value(), ElementsAre(other, first));
-  FollowedStretch later = other;
+  FollowedSection later = other;
   later.passed = 2.0;
   later.at_unix_ms = 3000;
   ASSERT_TRUE(store_->Put(std::vector{later}));
   EXPECT_THAT(store_->Followed().value(), ElementsAre(first, later));
-  std::vector<FollowedStretch> many;
+  std::vector<FollowedSection> many;
   for (std::int64_t i = 1; i < NetworkStore::kMostFollowed; ++i) {
     many.push_back({{RouteId("b"), TeachingId(~0ULL >> 1U)}, i, 1.0, 0.0, 4000});
   }

@@ -32,7 +32,7 @@ joints::Comparison Found() {
   return found;
 }
 
-TEST(DiffReport, TellsTheStretchesThatDifferAndSumsUp) {
+TEST(DiffReport, TellsTheSectionsThatDifferAndSumsUp) {
   const RouteDiff diff{Revision("hall", 'a', 1), Revision("hall", 'a', 3), Found()};
   EXPECT_EQ(
       DiffText(diff),

@@ -170,7 +170,7 @@ TEST_F(NetworkBoardTest, NoneIsProposedBesideAJointAndOneSideOfAPairIsEnough) {
   EXPECT_NE(Propose({Key(3), Key(2), 1.0, 6.0, 3.0, {}, 0.93}), "");
   EXPECT_EQ(Propose({Key(2), Key(3), 6.8, 1.7, 3.0, {}, 0.95}), "");
   EXPECT_EQ(Propose({Key(2), Key(3), 3.0, 0.0, 5.0, {}, 0.95}), "")
-      << "a longer stretch that has it in its middle";
+      << "a longer section that has it in its middle";
   Done("join ring@1 office@6");
   EXPECT_THAT(Asked(), Not(Contains(HasSubstr("proposed")))) << "an operator made it himself";
 }
@@ -482,7 +482,7 @@ TEST_F(NetworkBoardTest, WhereRobotsWereLostOnARevisionThatIsNotFollowedNobodyGo
   EXPECT_THAT(Asked(), Not(Contains(HasSubstr("lost "))));
 }
 
-TEST_F(NetworkBoardTest, AStretchThatIsDrivenBackwardsTooIsNarrow) {
+TEST_F(NetworkBoardTest, ASectionThatIsDrivenBackwardsTooIsNarrow) {
   EXPECT_THAT(Done("back office 2.."), ElementsAre("back office 2..", "narrow office 2..10"));
   EXPECT_THAT(Asked("way office@9 office@3"), ElementsAre("follow office backwards 9..3"));
   EXPECT_THAT(Refused("back office 12.."), HasSubstr("12 m is beyond it"));

@@ -1,4 +1,4 @@
-#include "route_server/routes/stretch_reader.h"
+#include "route_server/routes/section_reader.h"
 
 #include <algorithm>
 #include <utility>
@@ -24,12 +24,12 @@ Result<std::optional<route::RouteInfo>> FindJoinable(store::RouteStore& store,
   return info;
 }
 
-StretchReader::StretchReader(route::RouteInfo info, SegmentIndex first, SegmentIndex last)
+SectionReader::SectionReader(route::RouteInfo info, SegmentIndex first, SegmentIndex last)
     : info_(std::move(info)),
       first_(first.value()),
       end_(std::min({last.value() + 1, info_.segment_count, first.value() + kMost})) {}
 
-Result<bool> StretchReader::Step(store::RouteStore& store) {
+Result<bool> SectionReader::Step(store::RouteStore& store) {
   if (next_ >= end_) return true;
   const auto segment = ReadSegment(store, info_.key, SegmentIndex(next_));
   if (!segment) return tl::unexpected(segment.error());

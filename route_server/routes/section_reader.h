@@ -19,12 +19,12 @@ namespace trailcast::server {
 
 // Reads the key views of a section of a revision bit by bit. The segments before it tell where it
 // begins.
-class StretchReader {
+class SectionReader {
  public:
   static constexpr std::uint32_t kMost = 2'000;  // segments, with some 10 MB of views
 
   // Ends at the last existing segment, and after kMost of them.
-  StretchReader(route::RouteInfo info, SegmentIndex first, SegmentIndex last);
+  SectionReader(route::RouteInfo info, SegmentIndex first, SegmentIndex last);
 
   // Reads a segment; returns true if it was the last.
   [[nodiscard]] Result<bool> Step(store::RouteStore& store);
