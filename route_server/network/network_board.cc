@@ -22,7 +22,7 @@ namespace {
 using network::Condition;
 using network::Edit;
 using network::Goal;
-using network::Joint;
+using network::Junction;
 using network::NamedPlace;
 using network::Place;
 using Lines = std::vector<std::string>;
@@ -33,9 +33,9 @@ bool IsNear(const Place& a, const Place& b) {
   return a.route == b.route && IsNear(a.along_m, b.along_m);
 }
 
-Joint Reversed(Joint joint) {
-  std::swap(joint.from, joint.to);
-  return joint;
+Junction Reversed(Junction junction) {
+  std::swap(junction.from, junction.to);
+  return junction;
 }
 
 std::vector<std::string> NamesOf(const std::set<AgentId>& agents) {
@@ -50,10 +50,10 @@ std::string ListedText(const std::string& edit, bool used) {
 
 std::string PlacesText(const std::string& line) {
   const network::Listed listed = network::ParseListed(line);
-  const Joint joint = listed.proposal ? listed.proposal->joint
-                      : listed.edit   ? listed.edit->joint
-                                      : Joint{};
-  return network::ToText(joint.from) + " " + network::ToText(joint.to);
+  const Junction junction = listed.proposal ? listed.proposal->junction
+                            : listed.edit   ? listed.edit->junction
+                                            : Junction{};
+  return network::ToText(junction.from) + " " + network::ToText(junction.to);
 }
 
 // Describes the effect of an edit as one edit each; confirming several proposals gives one for each
@@ -85,8 +85,8 @@ Result<std::unique_ptr<NetworkBoard>> NetworkBoard::Open(AgentId server,
                                                          store::RouteStore& routes) {
   std::unique_ptr<NetworkBoard> board(
       new NetworkBoard(std::move(server), std::move(store), routes));
-  auto joints = board->store_->Joints();
-  if (!joints) return tl::unexpected(joints.error());
+  auto junctions = board->store_->Junctions();
+  if (!junctions) return tl::unexpected(junctions.error());
   auto conditions = board->store_->Conditions();
   if (!conditions) return tl::unexpected(conditions.error());
   auto names = board->store_->Names();
@@ -104,7 +104,7 @@ Result<std::unique_ptr<NetworkBoard>> NetworkBoard::Open(AgentId server,
   board->lanes_ = *std::move(lanes);
   board->proposed_ = *std::move(proposed);
   board->searched_.insert(searched->begin(), searched->end());
-  board->joints_ = *std::move(joints);
+  board->junctions_ = *std::move(junctions);
   board->conditions_ = *std::move(conditions);
   return board;
 }
@@ -188,9 +188,9 @@ Result<Lines> NetworkBoard::Carry(const Edit& edit, const std::string& by,
                                   std::int64_t now_unix_ms) {
   switch (edit.kind) {
     case Edit::Kind::kJoin:
-      return Join(edit.joint, by, now_unix_ms);
+      return Join(edit.junction, by, now_unix_ms);
     case Edit::Kind::kPart:
-      return Part(edit.joint);
+      return Part(edit.junction);
     case Edit::Kind::kName:
       return Name(edit.named, by, now_unix_ms);
     case Edit::Kind::kForget:
@@ -210,46 +210,47 @@ Result<Lines> NetworkBoard::Carry(const Edit& edit, const std::string& by,
   }
 }
 
-Result<Lines> NetworkBoard::Join(Joint joint, const std::string& by, std::int64_t now_unix_ms) {
-  for (Place* place : {&joint.from, &joint.to}) {
+Result<Lines> NetworkBoard::Join(Junction junction, const std::string& by,
+                                 std::int64_t now_unix_ms) {
+  for (Place* place : {&junction.from, &junction.to}) {
     auto resolved = Resolve(*place);
     if (!resolved) return tl::unexpected(resolved.error());
     *place = *std::move(resolved);
   }
-  if (IsNear(joint.from, joint.to)) {
+  if (IsNear(junction.from, junction.to)) {
     return Fail(ErrorCode::kInvalidArgument,
                 "a junction leads to another place than where it begins");
   }
-  const auto before = std::find_if(joints_.begin(), joints_.end(), [&](const Joint& each) {
-    return IsNear(each.from, joint.from) && IsNear(each.to, joint.to);
+  const auto before = std::find_if(junctions_.begin(), junctions_.end(), [&](const Junction& each) {
+    return IsNear(each.from, junction.from) && IsNear(each.to, junction.to);
   });
-  if (before != joints_.end()) {
-    joint.from = before->from;
-    joint.to = before->to;
+  if (before != junctions_.end()) {
+    junction.from = before->from;
+    junction.to = before->to;
   }
-  if (auto put = store_->Put(joint, by, now_unix_ms); !put) return tl::unexpected(put.error());
-  if (before != joints_.end()) joints_.erase(before);
-  joints_.push_back(joint);
+  if (auto put = store_->Put(junction, by, now_unix_ms); !put) return tl::unexpected(put.error());
+  if (before != junctions_.end()) junctions_.erase(before);
+  junctions_.push_back(junction);
   NoteChange();
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
-  const auto called = Called(joint);
+  const auto called = Called(junction);
   if (!called) return tl::unexpected(called.error());
   return Lines{network::ToText(*called)};
 }
 
-Result<Lines> NetworkBoard::Part(const Joint& joint) {
+Result<Lines> NetworkBoard::Part(const Junction& junction) {
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
   // Routes that were deleted are known only by their name in the list.
-  const auto from = Resolve(joint.from);
-  const auto to = Resolve(joint.to);
-  std::vector<Joint> parted;
+  const auto from = Resolve(junction.from);
+  const auto to = Resolve(junction.to);
+  std::vector<Junction> parted;
   Lines lines;
-  for (const Joint& each : joints_) {
+  for (const Junction& each : junctions_) {
     const auto called = Called(each);
     if (!called) return tl::unexpected(called.error());
-    const auto is = [&](const Joint& it, const Joint& its_name) {
-      return (IsNear(its_name.from, joint.from) || (from && IsNear(it.from, *from))) &&
-             (IsNear(its_name.to, joint.to) || (to && IsNear(it.to, *to)));
+    const auto is = [&](const Junction& it, const Junction& its_name) {
+      return (IsNear(its_name.from, junction.from) || (from && IsNear(it.from, *from))) &&
+             (IsNear(its_name.to, junction.to) || (to && IsNear(it.to, *to)));
     };
     if (!is(each, *called) && !is(Reversed(each), Reversed(*called))) continue;
     parted.push_back(each);
@@ -257,11 +258,11 @@ Result<Lines> NetworkBoard::Part(const Joint& joint) {
   }
   if (parted.empty()) {
     return Fail(ErrorCode::kNotFound, "there is no junction of {} and {}",
-                network::ToText(joint.from), network::ToText(joint.to));
+                network::ToText(junction.from), network::ToText(junction.to));
   }
-  for (const Joint& each : parted) {
+  for (const Junction& each : parted) {
     if (auto dropped = store_->Drop(each); !dropped) return tl::unexpected(dropped.error());
-    std::erase(joints_, each);
+    std::erase(junctions_, each);
     NoteChange();
   }
   return lines;
@@ -328,10 +329,11 @@ Result<Lines> NetworkBoard::All() {
     lines.push_back(network::ToText(
         network::Route{.name = known.called, .length_m = known.followed->length_m}));
   }
-  for (const Joint& joint : joints_) {
-    const auto called = Called(joint);
+  for (const Junction& junction : junctions_) {
+    const auto called = Called(junction);
     if (!called) return tl::unexpected(called.error());
-    lines.push_back(ListedText(network::ToText(*called), IsUsed(joint.from) && IsUsed(joint.to)));
+    lines.push_back(
+        ListedText(network::ToText(*called), IsUsed(junction.from) && IsUsed(junction.to)));
   }
   for (Condition condition : conditions_) {
     condition.route = Called(RouteId(condition.route));
@@ -352,9 +354,9 @@ Result<Lines> NetworkBoard::All() {
   }
   for (const std::size_t each : Open()) {
     network::Proposal proposal = proposed_[each].proposal;
-    auto called = Called(std::move(proposal.joint));
+    auto called = Called(std::move(proposal.junction));
     if (!called) return tl::unexpected(called.error());
-    proposal.joint = *std::move(called);
+    proposal.junction = *std::move(called);
     lines.push_back(network::ToText(proposal));
   }
   return lines;

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "route_server/joints/meeting.h"
+#include "route_server/junctions/meeting.h"
 #include "route_server/network/followed_lately.h"
 #include "services/base/newest_map.h"
 #include "services/exchange/messages.h"
@@ -139,9 +139,10 @@ class NetworkBoard {
   [[nodiscard]] Result<std::vector<std::string>> Carry(const network::Edit& edit,
                                                        const std::string& by,
                                                        std::int64_t now_unix_ms);
-  [[nodiscard]] Result<std::vector<std::string>> Join(network::Joint joint, const std::string& by,
+  [[nodiscard]] Result<std::vector<std::string>> Join(network::Junction junction,
+                                                      const std::string& by,
                                                       std::int64_t now_unix_ms);
-  [[nodiscard]] Result<std::vector<std::string>> Part(const network::Joint& joint);
+  [[nodiscard]] Result<std::vector<std::string>> Part(const network::Junction& junction);
   [[nodiscard]] Result<std::vector<std::string>> Set(network::Edit edit, const std::string& by,
                                                      std::int64_t now_unix_ms);
   [[nodiscard]] Result<std::vector<std::string>> Name(network::NamedPlace named,
@@ -166,7 +167,7 @@ class NetworkBoard {
   // Returns the indices of the listed proposals that await a decision: both revisions are followed,
   // and there is no junction.
   [[nodiscard]] std::vector<std::size_t> Open() const;
-  [[nodiscard]] Result<std::vector<std::size_t>> OpenAt(const network::Joint& joint) const;
+  [[nodiscard]] Result<std::vector<std::size_t>> OpenAt(const network::Junction& junction) const;
   void DropProposals(const route::RouteKey& key);
   [[nodiscard]] Result<std::vector<std::string>> All();
   // Answers a question; an empty one means everything.
@@ -177,11 +178,11 @@ class NetworkBoard {
   [[nodiscard]] Result<std::vector<std::string>> WhatPasses(const network::Goal& goal);
   // Adds where the other route of a junction passes at `place`, if it does and is not in the list
   // yet.
-  void AddPassing(const network::Place& place, const network::Joint& joint, double shared_m,
+  void AddPassing(const network::Place& place, const network::Junction& junction, double shared_m,
                   std::optional<double> confidence, std::vector<network::Passing>& found) const;
   // Returns how many metres its routes run together, as far as was found, or 0 if that is not
   // known.
-  [[nodiscard]] double SharedBy(const network::Joint& joint) const;
+  [[nodiscard]] double SharedBy(const network::Junction& junction) const;
 
   // Returns the complete revision, with a length, that ROUTE[@REVISION] means.
   [[nodiscard]] Result<route::RouteInfo> Meant(const std::string& words) const;
@@ -205,17 +206,17 @@ class NetworkBoard {
   [[nodiscard]] bool IsUsed(const network::Place& place) const;
   // Return how people see it: "hall@12", or "hall@1@12" for a revision that is not followed.
   [[nodiscard]] Result<network::Place> Called(const network::Place& place) const;
-  [[nodiscard]] Result<network::Joint> Called(network::Joint joint) const;
+  [[nodiscard]] Result<network::Junction> Called(network::Junction junction) const;
   [[nodiscard]] Result<network::NamedPlace> Called(network::NamedPlace named) const;
   [[nodiscard]] std::string Called(const RouteId& route) const;
 
   AgentId server_;
   std::unique_ptr<store::NetworkStore> store_;
   store::RouteStore& routes_;
-  std::vector<network::Joint> joints_;                // of revisions: "ID/TEACHING"
+  std::vector<network::Junction> junctions_;          // of revisions: "ID/TEACHING"
   std::vector<network::Condition> conditions_;        // of routes: "ID"
   std::map<std::string, network::NamedPlace> named_;  // of revisions
-  std::vector<store::ProposedJoint> proposed_;        // of revisions
+  std::vector<store::ProposedJunction> proposed_;     // of revisions
   std::vector<store::KeptLane> lanes_;                // of routes
   std::set<AgentId> vacated_;
   FollowedLately followed_;

@@ -15,7 +15,7 @@ namespace trailcast::server {
 
 using network::Condition;
 using network::Goal;
-using network::Joint;
+using network::Junction;
 using network::NamedPlace;
 using network::Place;
 
@@ -81,18 +81,18 @@ Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
                                      [&](const RouteId& id) { return known_.contains(id); });
   if (network_ && all_known) return {};
   std::set<RouteId> wanted = asked;
-  for (const Joint& joint : joints_) {
-    wanted.insert({KeyOf(joint.from.route).route, KeyOf(joint.to.route).route});
+  for (const Junction& junction : junctions_) {
+    wanted.insert({KeyOf(junction.from.route).route, KeyOf(junction.to.route).route});
   }
   for (const Condition& condition : conditions_) wanted.insert(RouteId(condition.route));
   for (const auto& [name, named] : named_) wanted.insert(KeyOf(named.place.route).route);
   for (const store::KeptLane& kept : lanes_) {
     for (const network::Part& part : kept.lane.parts) wanted.insert(RouteId(part.route));
   }
-  for (const store::ProposedJoint& each : proposed_) {
-    if (each.verdict != store::ProposedJoint::Verdict::kNone) continue;
-    const Joint& joint = each.proposal.joint;
-    wanted.insert({KeyOf(joint.from.route).route, KeyOf(joint.to.route).route});
+  for (const store::ProposedJunction& each : proposed_) {
+    if (each.verdict != store::ProposedJunction::Verdict::kNone) continue;
+    const Junction& junction = each.proposal.junction;
+    wanted.insert({KeyOf(junction.from.route).route, KeyOf(junction.to.route).route});
   }
   std::erase_if(known_, [&](const auto& each) { return !wanted.contains(each.first); });
   names_.clear();
@@ -109,9 +109,10 @@ Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
       routes.push_back({IdOf(followed->key), at->second.called, followed->length_m});
     }
   }
-  std::vector<Joint> joints;
-  std::copy_if(joints_.begin(), joints_.end(), std::back_inserter(joints),
-               [&](const Joint& joint) { return IsUsed(joint.from) && IsUsed(joint.to); });
+  std::vector<Junction> junctions;
+  std::copy_if(
+      junctions_.begin(), junctions_.end(), std::back_inserter(junctions),
+      [&](const Junction& junction) { return IsUsed(junction.from) && IsUsed(junction.to); });
   std::vector<Condition> conditions = CostsOfPoor();
   for (Condition condition : conditions_) {
     const Known& known = known_.at(RouteId(condition.route));
@@ -119,7 +120,7 @@ Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
     condition.route = IdOf(known.followed->key);
     conditions.push_back(std::move(condition));
   }
-  auto built = network::Network::Build(std::move(routes), joints, conditions);
+  auto built = network::Network::Build(std::move(routes), junctions, conditions);
   if (!built) return tl::unexpected(built.error());
   network_ = *std::move(built);
   return {};
@@ -158,13 +159,13 @@ Result<Place> NetworkBoard::Called(const Place& place) const {
   return Place{fmt::format("{}@{}", (*info)->name, (*info)->revision.value()), place.along_m};
 }
 
-Result<Joint> NetworkBoard::Called(Joint joint) const {
-  for (Place* place : {&joint.from, &joint.to}) {
+Result<Junction> NetworkBoard::Called(Junction junction) const {
+  for (Place* place : {&junction.from, &junction.to}) {
     auto called = Called(*place);
     if (!called) return tl::unexpected(called.error());
     *place = *std::move(called);
   }
-  return joint;
+  return junction;
 }
 
 Result<NamedPlace> NetworkBoard::Called(NamedPlace named) const {

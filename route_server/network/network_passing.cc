@@ -10,7 +10,7 @@
 namespace trailcast::server {
 namespace {
 
-using network::Joint;
+using network::Junction;
 using network::Passing;
 using network::Place;
 
@@ -29,10 +29,10 @@ std::optional<double> AlongOther(const Place& place, const Place& here, const Pl
 
 }  // namespace
 
-void NetworkBoard::AddPassing(const Place& place, const Joint& joint, double shared_m,
+void NetworkBoard::AddPassing(const Place& place, const Junction& junction, double shared_m,
                               std::optional<double> confidence, std::vector<Passing>& found) const {
   for (const auto& [here, there] :
-       {std::pair(&joint.from, &joint.to), std::pair(&joint.to, &joint.from)}) {
+       {std::pair(&junction.from, &junction.to), std::pair(&junction.to, &junction.from)}) {
     const auto along_m = AlongOther(place, *here, *there, shared_m);
     if (!along_m) continue;
     const double length_m = known_.at(KeyOf(there->route).route).followed->length_m;
@@ -40,14 +40,15 @@ void NetworkBoard::AddPassing(const Place& place, const Joint& joint, double sha
     const bool is_found = std::any_of(found.begin(), found.end(), [&](const Passing& each) {
       return each.at.route == at.route && std::abs(each.at.along_m - at.along_m) <= kSameMeeting_m;
     });
-    if (!is_found) found.push_back({at, joint, confidence});
+    if (!is_found) found.push_back({at, junction, confidence});
   }
 }
 
-double NetworkBoard::SharedBy(const Joint& joint) const {
+double NetworkBoard::SharedBy(const Junction& junction) const {
   const auto proposed =
-      std::find_if(proposed_.begin(), proposed_.end(), [&](const store::ProposedJoint& each) {
-        return each.proposal.joint.from == joint.from && each.proposal.joint.to == joint.to;
+      std::find_if(proposed_.begin(), proposed_.end(), [&](const store::ProposedJunction& each) {
+        return each.proposal.junction.from == junction.from &&
+               each.proposal.junction.to == junction.to;
       });
   return proposed == proposed_.end() ? 0.0 : proposed->length_m;
 }
@@ -55,10 +56,10 @@ double NetworkBoard::SharedBy(const Joint& joint) const {
 Result<std::vector<Place>> NetworkBoard::AlsoAt(const Place& place) {
   if (auto known = Know({KeyOf(place.route).route}); !known) return tl::unexpected(known.error());
   std::vector<Passing> found;
-  for (const Joint& joint : joints_) {
-    const double shared_m = SharedBy(joint);
-    const bool is_measured = shared_m > 0.0 && IsUsed(joint.from) && IsUsed(joint.to);
-    if (is_measured) AddPassing(place, joint, shared_m, {}, found);
+  for (const Junction& junction : junctions_) {
+    const double shared_m = SharedBy(junction);
+    const bool is_measured = shared_m > 0.0 && IsUsed(junction.from) && IsUsed(junction.to);
+    if (is_measured) AddPassing(place, junction, shared_m, {}, found);
   }
   std::vector<Place> also;
   for (const Passing& each : found) also.push_back(each.at);
@@ -79,24 +80,24 @@ Result<std::vector<std::string>> NetworkBoard::WhatPasses(const network::Goal& g
   }
 
   std::vector<Passing> found;
-  for (const Joint& joint : joints_) {
-    if (joint.from.route != place->route && joint.to.route != place->route) continue;
-    if (IsUsed(joint.from) && IsUsed(joint.to)) {
-      AddPassing(*place, joint, SharedBy(joint), {}, found);
+  for (const Junction& junction : junctions_) {
+    if (junction.from.route != place->route && junction.to.route != place->route) continue;
+    if (IsUsed(junction.from) && IsUsed(junction.to)) {
+      AddPassing(*place, junction, SharedBy(junction), {}, found);
     }
   }
   for (const std::size_t each : Open()) {
     const network::Proposal& proposal = proposed_[each].proposal;
-    AddPassing(*place, proposal.joint, proposed_[each].length_m, proposal.confidence, found);
+    AddPassing(*place, proposal.junction, proposed_[each].length_m, proposal.confidence, found);
   }
 
   std::vector<std::string> lines{network::AtPlace(*called)};
   for (const Passing& each : found) {
     const auto at = Called(each.at);
     if (!at) return tl::unexpected(at.error());
-    const auto joint = Called(each.joint);
-    if (!joint) return tl::unexpected(joint.error());
-    lines.push_back(network::ToText(Passing{*at, *joint, each.confidence}));
+    const auto junction = Called(each.junction);
+    if (!junction) return tl::unexpected(junction.error());
+    lines.push_back(network::ToText(Passing{*at, *junction, each.confidence}));
   }
   return lines;
 }

@@ -34,7 +34,7 @@ Result<bool> SectionReader::Step(store::RouteStore& store) {
   const auto segment = ReadSegment(store, info_.key, SegmentIndex(next_));
   if (!segment) return tl::unexpected(segment.error());
   if (next_ >= first_) {
-    if (!views_) views_ = std::make_shared<joints::RouteViews>(info_.image_width_px, along_m_);
+    if (!views_) views_ = std::make_shared<junctions::RouteViews>(info_.image_width_px, along_m_);
     views_->Add(*segment);
   }
   along_m_ += segment->length_m;

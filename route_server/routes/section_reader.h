@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "services/joints/route_views.h"
+#include "services/junctions/route_views.h"
 #include "services/store/route_store.h"
 
 namespace trailcast::server {
@@ -31,7 +31,9 @@ class SectionReader {
 
   [[nodiscard]] const route::RouteInfo& info() const { return info_; }
   // Returns the views once everything is read, and gives them away.
-  [[nodiscard]] std::shared_ptr<const joints::RouteViews> TakeViews() { return std::move(views_); }
+  [[nodiscard]] std::shared_ptr<const junctions::RouteViews> TakeViews() {
+    return std::move(views_);
+  }
 
  private:
   route::RouteInfo info_;
@@ -39,7 +41,7 @@ class SectionReader {
   std::uint32_t end_;  // one beyond the last
   std::uint32_t next_ = 0;
   double along_m_ = 0.0;
-  std::shared_ptr<joints::RouteViews> views_;
+  std::shared_ptr<junctions::RouteViews> views_;
 };
 
 }  // namespace trailcast::server

@@ -40,12 +40,12 @@ inline constexpr double kTurnsFrom_rad = 1.0;
 
 // This is a junction, where a robot may change over from one route to another, or to another part
 // of the same one, as from the end of a ring to its beginning.
-struct Joint {
+struct Junction {
   Place from{};
   Place to{};
   bool both = false;         // also from `to` to `from`
   std::optional<Lie> lie{};  // if it is known
-  bool operator==(const Joint&) const = default;
+  bool operator==(const Junction&) const = default;
 };
 
 // This holds on a part of a route without its ends: a robot may arrive where a closed section
@@ -118,7 +118,7 @@ class Network {
   // Conditions on routes that are not there are ignored. Returns kInvalidArgument for a junction at
   // a place that is not there, or for two routes with one id.
   [[nodiscard]] static Result<Network> Build(std::vector<Route> routes,
-                                             const std::vector<Joint>& joints,
+                                             const std::vector<Junction>& junctions,
                                              std::span<const Condition> conditions);
 
   // Returns the path of least cost: metres, times their cost, divided by the share of the speed
@@ -186,9 +186,9 @@ class Network {
   };
 
   [[nodiscard]] Result<Spot> Find(const Place& place) const;
-  void PlaceNodes(const std::vector<Joint>& joints, std::span<const Condition> conditions);
+  void PlaceNodes(const std::vector<Junction>& junctions, std::span<const Condition> conditions);
   void Weigh(std::span<const Condition> conditions);
-  void Link(const std::vector<Joint>& joints);
+  void Link(const std::vector<Junction>& junctions);
   [[nodiscard]] Index NodeAt(const Spot& spot) const;  // the last node at or before it
   // Returns the cost of a part of what is ahead of a node.
   [[nodiscard]] double Costs(Index node, double from_m, double to_m,

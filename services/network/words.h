@@ -56,7 +56,7 @@ struct Edit {
     kRefuse
   };
   Kind kind = Kind::kJoin;
-  Joint joint{};  // of kJoin and kPart; of kConfirm and kRefuse without `all`
+  Junction junction{};  // of kJoin and kPart; of kConfirm and kRefuse without `all`
   // This is of kClose, kOpen, kBack, kAhead and kLimit. It is the section of kWide and kVacate.
   Condition condition{};
   Lane lane{};         // of kNarrow
@@ -71,7 +71,7 @@ struct Edit {
 // This is a junction that a server has found by what scouts saw, and that no operator has
 // confirmed.
 struct Proposal {
-  Joint joint{};
+  Junction junction{};
   double confidence = 0.0;  // 0.5 to 1
   bool operator==(const Proposal&) const = default;
 };
@@ -130,9 +130,9 @@ struct Question {
 // Parses "hall@12" or "hall@2@12".
 [[nodiscard]] Result<Place> ParsePlace(std::string_view word);
 [[nodiscard]] std::string ToText(const Place& place);
-[[nodiscard]] std::string ToText(const Route& route);       // "route .."
-[[nodiscard]] std::string ToText(const NamedPlace& named);  // "name .."
-[[nodiscard]] std::string ToText(const Joint& joint);       // "join .."
+[[nodiscard]] std::string ToText(const Route& route);        // "route .."
+[[nodiscard]] std::string ToText(const NamedPlace& named);   // "name .."
+[[nodiscard]] std::string ToText(const Junction& junction);  // "join .."
 [[nodiscard]] std::string ToText(
     const Condition& condition);                             // "close ..", "back .." or "limit .."
 [[nodiscard]] std::string ToText(const Proposal& proposal);  // "proposed join .."

@@ -44,16 +44,16 @@ Json PlaceJson(const network::Place& place) {
   return {{"route", place.route}, {"along_m", Rounded(place.along_m, 100.0)}};
 }
 
-Json JointJson(const network::Joint& joint) {
+Json JunctionJson(const network::Junction& junction) {
   Json lie;
-  if (joint.lie) {
-    lie = {{"ahead_m", Rounded(joint.lie->ahead_m, 100.0)},
-           {"left_m", Rounded(joint.lie->left_m, 100.0)},
-           {"turn_rad", Rounded(joint.lie->turn_rad, 1e4)}};
+  if (junction.lie) {
+    lie = {{"ahead_m", Rounded(junction.lie->ahead_m, 100.0)},
+           {"left_m", Rounded(junction.lie->left_m, 100.0)},
+           {"turn_rad", Rounded(junction.lie->turn_rad, 1e4)}};
   }
-  return {{"from", PlaceJson(joint.from)},
-          {"to", PlaceJson(joint.to)},
-          {"both", joint.both},
+  return {{"from", PlaceJson(junction.from)},
+          {"to", PlaceJson(junction.to)},
+          {"both", junction.both},
           {"lie", std::move(lie)}};
 }
 
@@ -194,13 +194,13 @@ Json NetworkJson(const Lines& lines) {
           {{"route", route->name}, {"length_m", Rounded(route->length_m, 100.0)}});
     }
     if (proposal) {
-      network["proposed"].push_back(
-          With(JointJson(proposal->joint), "confidence", Rounded(proposal->confidence, 100.0)));
+      network["proposed"].push_back(With(JunctionJson(proposal->junction), "confidence",
+                                         Rounded(proposal->confidence, 100.0)));
     }
     if (lost) network["lost"].push_back(LostJson(*lost));
     if (!edit) continue;
     if (edit->kind == network::Edit::Kind::kJoin) {
-      network["joints"].push_back(With(JointJson(edit->joint), "used", used));
+      network["joints"].push_back(With(JunctionJson(edit->junction), "used", used));
     } else if (edit->kind == network::Edit::Kind::kNarrow) {
       network["narrow"].push_back(LaneJson(edit->lane, taken_by));
     } else if (edit->kind == network::Edit::Kind::kName) {
@@ -233,13 +233,13 @@ std::string PassingText(const network::Passings& passings) {
     width = std::max(width, network::ToText(each.at).size());
   }
   std::string text = place + "\n";
-  const network::Joint* proposed = nullptr;
+  const network::Junction* proposed = nullptr;
   for (const network::Passing& each : passings.routes) {
     text += fmt::format("  {:<{}}  {}\n", network::ToText(each.at), width,
                         each.confidence
-                            ? network::ToText(network::Proposal{each.joint, *each.confidence})
-                            : network::ToText(each.joint));
-    if (each.confidence && proposed == nullptr) proposed = &each.joint;
+                            ? network::ToText(network::Proposal{each.junction, *each.confidence})
+                            : network::ToText(each.junction));
+    if (each.confidence && proposed == nullptr) proposed = &each.junction;
   }
   if (proposed == nullptr) return text;
   return text + fmt::format(
@@ -254,7 +254,7 @@ Json PassingJson(const network::Passings& passings) {
     routes.push_back({{"at", PlaceJson(each.at)},
                       {"joined", !each.confidence},
                       {"confidence", program::RoundedOrNull(each.confidence, 100.0)},
-                      {"joint", JointJson(each.joint)}});
+                      {"joint", JunctionJson(each.junction)}});
   }
   return {{"place", PlaceJson(passings.place)}, {"passing", std::move(routes)}};
 }

@@ -70,16 +70,16 @@ class Words {
   std::string_view rest_;
 };
 
-Result<Joint> TakeJoint(Words& words) {
+Result<Junction> TakeJunction(Words& words) {
   auto from = ParsePlace(words.Take());
   if (!from) return tl::unexpected(from.error());
   auto to = ParsePlace(words.Take());
   if (!to) return tl::unexpected(to.error());
   if (*from == *to) return Wrong(ToText(*to), "another place than the first");
-  return Joint{.from = *std::move(from), .to = *std::move(to)};
+  return Junction{.from = *std::move(from), .to = *std::move(to)};
 }
 
-Result<void> TakeLie(Words& words, Joint& joint) {
+Result<void> TakeLie(Words& words, Junction& junction) {
   if (words.TakeIf("offset")) {
     const std::string_view word = words.Take();
     const std::size_t comma = std::min(word.find(','), word.size());
@@ -88,15 +88,15 @@ Result<void> TakeLie(Words& words, Joint& joint) {
                           ? ParseNumberWithin(word.substr(comma + 1), -kMostOffset_m, kMostOffset_m)
                           : std::nullopt;
     if (!ahead || !left) return Wrong(word, "AHEAD,LEFT in metres, as 0.1,-0.25");
-    if (!joint.lie) joint.lie.emplace();
-    joint.lie->ahead_m = *ahead;
-    joint.lie->left_m = *left;
+    if (!junction.lie) junction.lie.emplace();
+    junction.lie->ahead_m = *ahead;
+    junction.lie->left_m = *left;
   } else if (words.TakeIf("heading")) {
     const std::string_view word = words.Take();
     const auto degrees = ParseNumberWithin(word, -180.0, 180.0);
     if (!degrees) return Wrong(word, "degrees to the left, -180 to 180");
-    if (!joint.lie) joint.lie.emplace();
-    joint.lie->turn_rad = Radians(*degrees);
+    if (!junction.lie) junction.lie.emplace();
+    junction.lie->turn_rad = Radians(*degrees);
   } else {
     return Wrong(words.Next(), "'both', 'offset AHEAD,LEFT', 'heading DEGREES' or nothing more");
   }
@@ -104,16 +104,16 @@ Result<void> TakeLie(Words& words, Joint& joint) {
 }
 
 Result<Edit> TakeJoin(Words& words) {
-  auto joint = TakeJoint(words);
-  if (!joint) return tl::unexpected(joint.error());
+  auto junction = TakeJunction(words);
+  if (!junction) return tl::unexpected(junction.error());
   while (!words.empty()) {
     if (words.TakeIf("both")) {
-      joint->both = true;
-    } else if (auto taken = TakeLie(words, *joint); !taken) {
+      junction->both = true;
+    } else if (auto taken = TakeLie(words, *junction); !taken) {
       return tl::unexpected(taken.error());
     }
   }
-  return Edit{.kind = Edit::Kind::kJoin, .joint = *std::move(joint)};
+  return Edit{.kind = Edit::Kind::kJoin, .junction = *std::move(junction)};
 }
 
 Result<Edit> TakeName(Words& words, Edit::Kind kind) {
@@ -137,10 +137,10 @@ Result<Edit> TakeName(Words& words, Edit::Kind kind) {
 
 // Parses PLACE PLACE.
 Result<Edit> TakePlaces(Words& words, Edit::Kind kind) {
-  auto joint = TakeJoint(words);
-  if (!joint) return tl::unexpected(joint.error());
+  auto junction = TakeJunction(words);
+  if (!junction) return tl::unexpected(junction.error());
   if (!words.empty()) return Wrong(words.Next(), "nothing more");
-  return Edit{.kind = kind, .joint = *std::move(joint)};
+  return Edit{.kind = kind, .junction = *std::move(junction)};
 }
 
 // Parses PLACE PLACE, or "all" with a bound.
@@ -267,7 +267,7 @@ std::optional<Proposal> ParseProposal(std::string_view text) {
   const auto confidence = ParseNumberWithin(text.substr(at + kConfidence.size()), 0.0, 1.0);
   auto edit = ParseEdit(text.substr(0, at));
   if (!confidence || !edit || edit->kind != Edit::Kind::kJoin) return std::nullopt;
-  return Proposal{std::move(edit->joint), *confidence};
+  return Proposal{std::move(edit->junction), *confidence};
 }
 
 // Parses ROUTE FROM..TO N of M cost F.
@@ -359,13 +359,13 @@ std::string ToText(const NamedPlace& named) {
                      named.home ? kHome : "");
 }
 
-std::string ToText(const Joint& joint) {
-  std::string text = "join " + ToText(joint.from) + " " + ToText(joint.to);
-  if (joint.both) text += " both";
-  if (!joint.lie) return text;
-  const std::string offset = Metres(joint.lie->ahead_m) + "," + Metres(joint.lie->left_m);
+std::string ToText(const Junction& junction) {
+  std::string text = "join " + ToText(junction.from) + " " + ToText(junction.to);
+  if (junction.both) text += " both";
+  if (!junction.lie) return text;
+  const std::string offset = Metres(junction.lie->ahead_m) + "," + Metres(junction.lie->left_m);
   if (offset != "0,0") text += " offset " + offset;
-  return text + fmt::format(" heading {:.1f}", Degrees(joint.lie->turn_rad));
+  return text + fmt::format(" heading {:.1f}", Degrees(junction.lie->turn_rad));
 }
 
 std::string ToText(const Condition& condition) {
@@ -410,7 +410,7 @@ std::string ToText(const Proposal& proposal) {
   // The text must not claim more confidence than there is.
   constexpr double kRounding = 1e-6;
   const double confidence = std::floor(100.0 * proposal.confidence + kRounding) / 100.0;
-  return fmt::format("{}{}{}{:.2f}", kProposed, ToText(proposal.joint), kConfidence, confidence);
+  return fmt::format("{}{}{}{:.2f}", kProposed, ToText(proposal.junction), kConfidence, confidence);
 }
 
 std::vector<Condition> Amended(std::vector<Condition> conditions, const Edit& edit) {

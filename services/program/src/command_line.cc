@@ -45,14 +45,29 @@ std::string AcceptedKeys(const CLI::App& app) {
   return text;
 }
 
-// These are the names that commands had once.
-constexpr std::pair<const char*, const char*> kFormerNames[] = {{"glance", "snapshot"}};
+// These are the names that commands and options had once.
+constexpr std::pair<const char*, const char*> kFormerNames[] = {
+    {"glance", "snapshot"},
+    {"joints", "junctions"},
+    {"--joints", "--junctions"},
+    {"--joints-auto", "--junctions-auto"}};
 
-// Returns "; did you mean 'snapshot'?" for a word that is no command of `app`, or an empty text.
-std::string CommandLike(const CLI::App& app, const std::string& word) {
+void AddOptionNames(const CLI::App& app, std::vector<std::string>& names) {
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+}
+
+// Returns "; did you mean 'snapshot'?" for what is no command or option of `app`, or an empty text.
+std::string NameLike(const CLI::App& app, const std::string& unknown) {
+  const std::string word = unknown.substr(0, unknown.find('='));
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(command->get_name());
+  AddOptionNames(app, names);
+  for (const CLI::App* command : app.get_subcommands()) AddOptionNames(*command, names);
+  if (app.get_subcommands().empty()) {
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+      names.push_back(command->get_name());
+    }
   }
   for (const auto& [former, present] : kFormerNames) {
     const bool is_there = std::find(names.begin(), names.end(), present) != names.end();
@@ -66,9 +81,8 @@ std::string Explain(const CLI::App& app, const CLI::ParseError& error) {
   std::string message = error.what();
   const std::vector<std::string> unknown = app.remaining(true);
   if (!unknown.empty()) {
-    const bool has_command = !app.get_subcommands().empty();
     return fmt::format("not understood: {}{}", fmt::join(unknown, " "),
-                       has_command ? "" : CommandLike(app, unknown.front()));
+                       NameLike(app, unknown.front()));
   }
   if (dynamic_cast<const CLI::ConfigError*>(&error) == nullptr) return message;
   const std::string prefix = "INI was not able to parse ";

@@ -65,7 +65,7 @@ class LanesModel {
     if (has_bay_) Put(Bay(), Name(Bay()), kBay_m);
     Restart();
     for (std::size_t i = 0; i < corridors_; ++i) AddLanes(i);
-    for (std::size_t i = 0; i < corridors_; ++i) AddJoints(i);
+    for (std::size_t i = 0; i < corridors_; ++i) AddJunctions(i);
     if (has_bay_) AddBay();
     loses_ = Between(0.0, 0.4);
     restarts_ = seed % 2 == 0;
@@ -167,7 +167,7 @@ class LanesModel {
         return {route, along_m};
     }
   }
-  void AddJoints(std::size_t corridor) {
+  void AddJunctions(std::size_t corridor) {
     const double length_m = lengths_m_[corridor];
     for (const auto& [from, to] : {std::pair(0, 1), std::pair(1, 0)}) {
       Edit(fmt::format("join {}@{:g} {}@0", Name(2 * corridor + from), std::floor(length_m),

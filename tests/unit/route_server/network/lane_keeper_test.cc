@@ -42,10 +42,10 @@ class LaneKeeperTest : public testing::Test {
     keeper_.reset();
     network_.reset();
     missions_.reset();
-    auto joints = store::NetworkStore::Open(folder_ / "joints");
+    auto junctions = store::NetworkStore::Open(folder_ / "joints");
     auto missions = store::MissionStore::Open(folder_ / "missions");
-    ASSERT_TRUE(joints && missions);
-    network_ = NetworkBoard::Open(AgentId("server"), std::move(*joints), routes_).value();
+    ASSERT_TRUE(junctions && missions);
+    network_ = NetworkBoard::Open(AgentId("server"), std::move(*junctions), routes_).value();
     missions_ = MissionBoard::Open(AgentId("server"), std::move(*missions)).value();
     keeper_.emplace(*missions_, *network_);
     (void)keeper_->LookAtAll(now_);

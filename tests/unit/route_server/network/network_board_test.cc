@@ -164,7 +164,7 @@ TEST_F(NetworkBoardTest, WhatWasRefusedIsNotProposedAgainOfTheseRevisions) {
   EXPECT_NE(Propose({Key(1, 2), Key(2), 12.0, 0.4, 3.0, {}, 0.93}), "");
 }
 
-TEST_F(NetworkBoardTest, NoneIsProposedBesideAJointAndOneSideOfAPairIsEnough) {
+TEST_F(NetworkBoardTest, NoneIsProposedBesideAJunctionAndOneSideOfAPairIsEnough) {
   Done("join hall@12 office@0");
   EXPECT_EQ(Propose({Key(1), Key(2), 13.0, 0.9, 3.0, {}, 0.93}), "");
   EXPECT_NE(Propose({Key(3), Key(2), 1.0, 6.0, 3.0, {}, 0.93}), "");
@@ -204,7 +204,7 @@ TEST_F(NetworkBoardTest, OfWhatPassesNothingIsSaidTwiceNorOfOtherRevisionsThanAr
   Done("join hall@12 office@0");
   Done("join hall@13 office@1 both");
   Done("join ring@8 ring@0");
-  EXPECT_THAT(Asked("passing hall@12.5"), SizeIs(2)) << "one joint is enough";
+  EXPECT_THAT(Asked("passing hall@12.5"), SizeIs(2)) << "one junction is enough";
   EXPECT_THAT(Asked("passing hall@10.5"),
               ElementsAre("at hall@10.5", "passes office@0 join hall@12 office@0"))
       << "not before it begins";
@@ -273,7 +273,7 @@ TEST_F(NetworkBoardTest, WhatWasLookedAtIsRememberedUntilItIsDeleted) {
   EXPECT_EQ(board_->open_proposals(), 0U);
 }
 
-TEST_F(NetworkBoardTest, TheSameJointIsMadeOnce) {
+TEST_F(NetworkBoardTest, TheSameJunctionIsMadeOnce) {
   Done("join hall@12 office@0");
   EXPECT_THAT(Done("join hall@12.03 office@0 both offset 0.1,-0.2 heading 3"),
               ElementsAre("join hall@12 office@0 both offset 0.1,-0.2 heading 3.0"));
@@ -334,7 +334,7 @@ TEST_F(NetworkBoardTest, WhatIsClosedIsAvoidedOrNamedUntilItIsOpened) {
                                                         "follow office 4..8 speed 0.5"));
 }
 
-TEST_F(NetworkBoardTest, AJointOfARevisionThatIsNotFollowedIsNotUsed) {
+TEST_F(NetworkBoardTest, AJunctionOfARevisionThatIsNotFollowedIsNotUsed) {
   Done("join hall@12 office@0");
   Done("close hall 13..14");
   Put(1, "hall", 20.0, 1, route::Standing::kRetired, 1);
@@ -350,7 +350,7 @@ TEST_F(NetworkBoardTest, AJointOfARevisionThatIsNotFollowedIsNotUsed) {
   EXPECT_THAT(Done("part hall@1@12 office@0"), ElementsAre("join hall@1@12 office@0"));
 }
 
-TEST_F(NetworkBoardTest, AJointOfADeletedRouteIsPartedAsItIsListed) {
+TEST_F(NetworkBoardTest, AJunctionOfADeletedRouteIsPartedAsItIsListed) {
   Done("join hall@12 office@0");
   Put(2, "office", 10.0, 1, route::Standing::kDeleted, 1);
   EXPECT_THAT(Asked(), ElementsAre("route hall 20.00", "unused join hall@12 office@1@0"));
@@ -444,7 +444,7 @@ TEST_F(NetworkBoardTest, ALongListIsGivenInPages) {
   EXPECT_THAT(Ask("", 5000).lines, IsEmpty());
 }
 
-// Between hall's 4 m and its 10 m one may go round over ring, which is 2 m and a joint more.
+// Between hall's 4 m and its 10 m one may go round over ring, which is 2 m and a junction more.
 TEST_F(NetworkBoardTest, TheLongerWayIsTakenWhereTheShorterOneWasLostLately) {
   Done("join hall@14 office@8");
   Done("join hall@4 ring@0");
@@ -492,7 +492,7 @@ TEST_F(NetworkBoardTest, ASectionThatIsDrivenBackwardsTooIsNarrow) {
   EXPECT_THAT(Ask("way office@9 office@3").error, HasSubstr("no way leads"));
 }
 
-TEST_F(NetworkBoardTest, AWayTurnsRoundWhereAJointLeadsToTheOppositeDirection) {
+TEST_F(NetworkBoardTest, AWayTurnsRoundWhereAJunctionLeadsToTheOppositeDirection) {
   Done("join hall@20 office@1 heading 180");
   EXPECT_THAT(Asked("way hall@3 office@4"),
               ElementsAre("follow hall 3..20", "turn 180", "follow office 1..4"));

@@ -41,10 +41,10 @@ class ReplanningTest : public testing::Test {
     replanning_.reset();
     network_.reset();
     missions_.reset();
-    auto joints = store::NetworkStore::Open(folder_ / "joints");
+    auto junctions = store::NetworkStore::Open(folder_ / "joints");
     auto missions = store::MissionStore::Open(folder_ / "missions");
-    ASSERT_TRUE(joints && missions);
-    network_ = NetworkBoard::Open(AgentId("server"), std::move(*joints), routes_).value();
+    ASSERT_TRUE(junctions && missions);
+    network_ = NetworkBoard::Open(AgentId("server"), std::move(*junctions), routes_).value();
     missions_ = MissionBoard::Open(AgentId("server"), std::move(*missions)).value();
     replanning_.emplace(*missions_, *network_);
   }
@@ -236,7 +236,7 @@ TEST_F(ReplanningTest, WordsForPeopleAskForNothing) {
   EXPECT_THAT(IsAt(3, 4.0), HasSubstr("found itself elsewhere"));
 }
 
-// Beyond the joint, where both routes still run side by side.
+// Beyond the junction, where both routes still run side by side.
 TEST_F(ReplanningTest, OneThatHasFoundItselfOnOneOfTwoRoutesGoesOnByTheOther) {
   ASSERT_TRUE(network_->Propose({.a = test::KeyNumber(1, 1),
                                  .b = test::KeyNumber(2, 1),
