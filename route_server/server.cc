@@ -112,17 +112,17 @@ void Server::WaitForNetwork(const std::function<bool()>& stop) {
 }
 
 Result<void> Server::KeepMissions(std::unique_ptr<store::MissionStore> store) {
-  auto board = MissionBoard::Open(presence_.status().agent, std::move(store));
-  if (!board) return tl::unexpected(board.error());
-  missions_ = std::move(*board);
+  auto registry = MissionRegistry::Open(presence_.status().agent, std::move(store));
+  if (!registry) return tl::unexpected(registry.error());
+  missions_ = std::move(*registry);
   KeepWays();
   return {};
 }
 
 Result<void> Server::KeepNetwork(std::unique_ptr<store::NetworkStore> store) {
-  auto board = NetworkBoard::Open(presence_.status().agent, std::move(store), *store_);
-  if (!board) return tl::unexpected(board.error());
-  network_ = std::move(*board);
+  auto registry = NetworkRegistry::Open(presence_.status().agent, std::move(store), *store_);
+  if (!registry) return tl::unexpected(registry.error());
+  network_ = std::move(*registry);
   junctions_ = std::make_unique<JunctionFinder>(
       *store_, views_, [this](const route::RouteKey& key) { return network_->WasSearched(key); });
   KeepWays();
@@ -312,7 +312,7 @@ void Server::TellMissions() {
   if (!missions_) return;
   // Anything that cannot be sent is requested, or sent, again.
   (void)exchange::PublishAll(*exchange_, missions_->Tick(steady_clock::now(), NowUnixMs()));
-  for (const MissionBoard::Note& note : missions_->TakeNotes()) {
+  for (const MissionRegistry::Note& note : missions_->TakeNotes()) {
     spdlog::log(note.warning ? spdlog::level::warn : spdlog::level::info, "{}", note.text);
   }
 }

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "route_server/fleet/fleet_news.h"
-#include "route_server/fleet/mission_board.h"
+#include "route_server/fleet/mission_registry.h"
 #include "route_server/fleet/route_followers.h"
 #include "route_server/junctions/junction_finder.h"
-#include "route_server/network/lane_keeper.h"
-#include "route_server/network/network_board.h"
+#include "route_server/network/network_registry.h"
 #include "route_server/network/replanning.h"
+#include "route_server/network/zone_admission.h"
 #include "route_server/routes/history.h"
 #include "route_server/routes/holders.h"
 #include "route_server/routes/mirror_watch.h"
@@ -141,9 +141,9 @@ class Server {
   RequestQueue requests_;
   std::vector<exchange::Message> replies_;  // to requests that the keeper does not answer
   FleetNews fleet_;
-  RouteFollowersBoard followers_;
-  std::unique_ptr<MissionBoard> missions_;     // null if it keeps none
-  std::unique_ptr<NetworkBoard> network_;      // likewise
+  FollowerRegistry followers_;
+  std::unique_ptr<MissionRegistry> missions_;  // null if it keeps none
+  std::unique_ptr<NetworkRegistry> network_;   // likewise
   std::unique_ptr<JunctionFinder> junctions_;  // for that
   bool takes_sure_junctions_ = false;
   RefreshWatch refreshes_;
@@ -152,7 +152,7 @@ class Server {
   std::vector<route::RouteKey> planned_;                 // to be changed
   std::chrono::steady_clock::time_point keeping_due_{};  // for what is learnt of the network
   std::optional<Replanning> replanning_;                 // with missions and network
-  std::optional<LaneKeeper> lanes_;                      // likewise
+  std::optional<ZoneAdmission> lanes_;                   // likewise
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store
   Metrics metrics_;

@@ -9,7 +9,7 @@
 
 namespace trailcast::server {
 
-// The parts of MissionBoard share these.
+// The parts of MissionRegistry share these.
 
 // A robot that has not answered is told again after the first pause, and later after ever longer
 // ones up to the second.

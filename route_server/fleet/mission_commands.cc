@@ -1,11 +1,11 @@
-// This part of MissionBoard does what operators command at once: it holds queues, lets them go, and
-// sends robots home.
+// This part of MissionRegistry does what operators command at once: it holds queues, lets them go,
+// and sends robots home.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "route_server/fleet/kept_mission.h"
-#include "route_server/fleet/mission_board.h"
+#include "route_server/fleet/mission_registry.h"
 #include "services/base/process_name.h"
 #include "services/base/unix_time.h"
 #include "services/mission/orders.h"
@@ -32,7 +32,7 @@ bool MeansMission(const exchange::NowCommand& command, const mission::Mission& m
 
 // A cancellation voids the missions that were sent before it, even if the robot has not heard of
 // them yet.
-void MissionBoard::On(const exchange::NowCommand& command, Time now, std::int64_t now_unix_ms) {
+void MissionRegistry::On(const exchange::NowCommand& command, Time now, std::int64_t now_unix_ms) {
   const NowKey key{command.client, command.number};
   if (std::exchange(commands_.Touch(key), command)) return;
   std::vector<AgentId> answered;
@@ -54,7 +54,7 @@ void MissionBoard::On(const exchange::NowCommand& command, Time now, std::int64_
       now_unix_ms);
 }
 
-bool MissionBoard::IsMeant(const exchange::NowCommand& command, const AgentId& agent) const {
+bool MissionRegistry::IsMeant(const exchange::NowCommand& command, const AgentId& agent) const {
   if (command.whom == exchange::NowWhom::kRobot) return command.name == agent.value();
   const Current* current = current_.Find(agent);
   if (current != nullptr && MeansMission(command, current->record.mission)) return true;
@@ -64,7 +64,7 @@ bool MissionBoard::IsMeant(const exchange::NowCommand& command, const AgentId& a
                      [&](const Waiting& each) { return MeansMission(command, each.mission); });
 }
 
-void MissionBoard::HoldOrLetGo(const exchange::NowCommand& command, std::int64_t now_unix_ms) {
+void MissionRegistry::HoldOrLetGo(const exchange::NowCommand& command, std::int64_t now_unix_ms) {
   const bool lets_go = command.order == exchange::NowOrder::kResume;
   if (!lets_go && command.order != exchange::NowOrder::kStop) return;
   for (const auto& [agent, queue] : unanswered_) {
@@ -80,12 +80,12 @@ void MissionBoard::HoldOrLetGo(const exchange::NowCommand& command, std::int64_t
   }
 }
 
-std::string MissionBoard::HeldBy(const AgentId& agent) const {
+std::string MissionRegistry::HeldBy(const AgentId& agent) const {
   const auto hold = holds_.find(agent);
   return hold == holds_.end() ? "" : hold->second;
 }
 
-void MissionBoard::Hold(const AgentId& agent, const std::string& why, std::int64_t now_unix_ms) {
+void MissionRegistry::Hold(const AgentId& agent, const std::string& why, std::int64_t now_unix_ms) {
   const auto stored = store_->Put(store::MissionStore::Hold{agent, why, now_unix_ms});
   NoteStored(stored);
   if (!stored) Warn(stored.error());
@@ -93,7 +93,7 @@ void MissionBoard::Hold(const AgentId& agent, const std::string& why, std::int64
   changed_.insert(agent);
 }
 
-void MissionBoard::LetGo(const AgentId& agent, std::int64_t now_unix_ms) {
+void MissionRegistry::LetGo(const AgentId& agent, std::int64_t now_unix_ms) {
   if (HeldBy(agent).empty()) return;
   Hold(agent, "", now_unix_ms);
   if (Heard* heard = heard_.Find(agent)) heard->tell_at = {};
@@ -101,7 +101,7 @@ void MissionBoard::LetGo(const AgentId& agent, std::int64_t now_unix_ms) {
 
 // The hold is on the disk before the end is. A robot repeats the end of a mission until it is
 // stored, and a repeated end that is known must not hold what an operator has let go meanwhile.
-void MissionBoard::HoldAfter(const mission::Report& end, std::int64_t now_unix_ms) {
+void MissionRegistry::HoldAfter(const mission::Report& end, std::int64_t now_unix_ms) {
   if (!mission::HasEnded(end.state) || end.state == mission::State::kArrived) return;
   const auto queue = unanswered_.find(end.agent);
   if (queue == unanswered_.end() || !HeldBy(end.agent).empty()) return;
@@ -118,7 +118,7 @@ void MissionBoard::HoldAfter(const mission::Report& end, std::int64_t now_unix_m
        now_unix_ms);
 }
 
-void MissionBoard::On(const exchange::NowAnswer& answer, Time now, std::int64_t now_unix_ms) {
+void MissionRegistry::On(const exchange::NowAnswer& answer, Time now, std::int64_t now_unix_ms) {
   const NowKey key{answer.client, answer.number};
   if (std::exchange(answers_.Touch({answer.agent, key}), answer)) return;
   if (const auto added = store_->Add(answer); !added) Warn(added.error());
@@ -128,8 +128,8 @@ void MissionBoard::On(const exchange::NowAnswer& answer, Time now, std::int64_t 
 }
 
 // An answer may come before its command does.
-void MissionBoard::SendHome(const exchange::NowCommand& command, const AgentId& agent, Time now,
-                            std::int64_t now_unix_ms) {
+void MissionRegistry::SendHome(const exchange::NowCommand& command, const AgentId& agent, Time now,
+                               std::int64_t now_unix_ms) {
   const auto* answer = answers_.Find({agent, {command.client, command.number}});
   const bool obeys = answer != nullptr && *answer && !(*answer)->refused;
   if (command.order != exchange::NowOrder::kHome || !obeys) return;

@@ -1,4 +1,4 @@
-// This part of MissionBoard is the robots' queues: what waits, for what, and when it is handed
+// This part of MissionRegistry is the robots' queues: what waits, for what, and when it is handed
 // over.
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 
 #include "route_server/fleet/kept_mission.h"
-#include "route_server/fleet/mission_board.h"
+#include "route_server/fleet/mission_registry.h"
 #include "services/mission/orders.h"
 
 namespace trailcast::server {
@@ -25,7 +25,7 @@ std::uint32_t ValidFor_s(const mission::Mission& mission) {
 
 // Only the first mission of a robot that has none has been waiting for that robot, at most since
 // the one before has ended and the queue was let go.
-Result<void> MissionBoard::LoadQueues() {
+Result<void> MissionRegistry::LoadQueues() {
   auto holds = store_->Holds();
   if (!holds) return tl::unexpected(holds.error());
   std::map<AgentId, std::int64_t> let_go_unix_ms;
@@ -51,7 +51,7 @@ Result<void> MissionBoard::LoadQueues() {
   return {};
 }
 
-std::string MissionBoard::WhyNotNow(const AgentId& agent) const {
+std::string MissionRegistry::WhyNotNow(const AgentId& agent) const {
   const Heard* heard = heard_.Find(agent);
   if (heard != nullptr && heard->hold == exchange::AgentHold::kStopped) return heard->hold_text;
   const auto queue = unanswered_.find(agent);
@@ -67,7 +67,7 @@ std::string MissionBoard::WhyNotNow(const AgentId& agent) const {
   return heard->hold == exchange::AgentHold::kPaused ? heard->hold_text : "";
 }
 
-mission::Report MissionBoard::Waits(const Waiting& record, const Waiting* before) const {
+mission::Report MissionRegistry::Waits(const Waiting& record, const Waiting* before) const {
   const std::string why =
       before == nullptr
           ? WhyNotNow(record.mission.agent)
@@ -80,7 +80,7 @@ mission::Report MissionBoard::Waits(const Waiting& record, const Waiting* before
 
 // Tells of each mission in queues that have changed what it waits for, if that is news or its
 // sender asks. Nobody is told unasked of those that were loaded.
-void MissionBoard::TellQueues() {
+void MissionRegistry::TellQueues() {
   for (const AgentId& agent : std::exchange(changed_, {})) {
     const auto queue = unanswered_.find(agent);
     if (queue == unanswered_.end()) {
@@ -101,7 +101,7 @@ void MissionBoard::TellQueues() {
 }
 
 // A robot that does something else first will stand elsewhere than its sender thought.
-void MissionBoard::NoteWaited(Waiting& record) {
+void MissionRegistry::NoteWaited(Waiting& record) {
   const auto going = mission::GoingIn(record.mission.orders);
   if (!going || !check_way_) return;
   const std::string orders = OrdersWithoutWay(going->to);
@@ -111,7 +111,7 @@ void MissionBoard::NoteWaited(Waiting& record) {
   if (stored) record.mission.orders = orders;
 }
 
-bool MissionBoard::PlanAnew(const Waiting& record, std::int64_t now_unix_ms) {
+bool MissionRegistry::PlanAnew(const Waiting& record, std::int64_t now_unix_ms) {
   const auto going = mission::GoingIn(record.mission.orders);
   if (!going || record.mission.orders != OrdersWithoutWay(going->to)) return true;
   const Result<bool> found =
@@ -131,7 +131,7 @@ bool MissionBoard::PlanAnew(const Waiting& record, std::int64_t now_unix_ms) {
   return false;
 }
 
-void MissionBoard::Drop(mission::State state, const Why& why, std::int64_t now_unix_ms) {
+void MissionRegistry::Drop(mission::State state, const Why& why, std::int64_t now_unix_ms) {
   std::vector<mission::Report> reports;
   for (const auto& [agent, queue] : unanswered_) {
     bool others_follow = false;
@@ -170,7 +170,7 @@ void MissionBoard::Drop(mission::State state, const Why& why, std::int64_t now_u
 
 // Counts the time for which a robot could have taken a mission and was not heard, or did not
 // answer. A robot that is out of reach with a mission is given as long as any.
-void MissionBoard::Expire(Time now, std::int64_t now_unix_ms) {
+void MissionRegistry::Expire(Time now, std::int64_t now_unix_ms) {
   for (auto& [agent, queue] : unanswered_) {
     const bool is_heard = heard_.Find(agent) != nullptr;
     const bool at_work = unended_.Find(agent) != nullptr;
@@ -199,7 +199,7 @@ void MissionBoard::Expire(Time now, std::int64_t now_unix_ms) {
       now_unix_ms);
 }
 
-void MissionBoard::HandOver(Time now, std::int64_t now_unix_ms) {
+void MissionRegistry::HandOver(Time now, std::int64_t now_unix_ms) {
   std::vector<AgentId> due;
   for (const auto& [agent, queue] : unanswered_) {
     Heard* heard = heard_.Find(agent);

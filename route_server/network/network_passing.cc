@@ -1,10 +1,10 @@
-// This part of NetworkBoard finds the routes that pass at a place, by junctions.
+// This part of NetworkRegistry finds the routes that pass at a place, by junctions.
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "route_server/network/network_board.h"
 #include "route_server/network/network_ids.h"
+#include "route_server/network/network_registry.h"
 #include "services/network/passing.h"
 
 namespace trailcast::server {
@@ -19,7 +19,7 @@ using network::Place;
 // that route.
 std::optional<double> AlongOther(const Place& place, const Place& here, const Place& there,
                                  double shared_m) {
-  constexpr double kLeast_m = NetworkBoard::kSameMeeting_m;
+  constexpr double kLeast_m = NetworkRegistry::kSameMeeting_m;
   const double into_m = IntoShared_m(shared_m);
   const double on_m = place.along_m - here.along_m;
   if (here.route != place.route || on_m < -std::max(into_m, kLeast_m)) return std::nullopt;
@@ -29,8 +29,9 @@ std::optional<double> AlongOther(const Place& place, const Place& here, const Pl
 
 }  // namespace
 
-void NetworkBoard::AddPassing(const Place& place, const Junction& junction, double shared_m,
-                              std::optional<double> confidence, std::vector<Passing>& found) const {
+void NetworkRegistry::AddPassing(const Place& place, const Junction& junction, double shared_m,
+                                 std::optional<double> confidence,
+                                 std::vector<Passing>& found) const {
   for (const auto& [here, there] :
        {std::pair(&junction.from, &junction.to), std::pair(&junction.to, &junction.from)}) {
     const auto along_m = AlongOther(place, *here, *there, shared_m);
@@ -44,7 +45,7 @@ void NetworkBoard::AddPassing(const Place& place, const Junction& junction, doub
   }
 }
 
-double NetworkBoard::SharedBy(const Junction& junction) const {
+double NetworkRegistry::SharedBy(const Junction& junction) const {
   const auto proposed =
       std::find_if(proposed_.begin(), proposed_.end(), [&](const store::ProposedJunction& each) {
         return each.proposal.junction.from == junction.from &&
@@ -53,7 +54,7 @@ double NetworkBoard::SharedBy(const Junction& junction) const {
   return proposed == proposed_.end() ? 0.0 : proposed->length_m;
 }
 
-Result<std::vector<Place>> NetworkBoard::AlsoAt(const Place& place) {
+Result<std::vector<Place>> NetworkRegistry::AlsoAt(const Place& place) {
   if (auto known = Know({KeyOf(place.route).route}); !known) return tl::unexpected(known.error());
   std::vector<Passing> found;
   for (const Junction& junction : junctions_) {
@@ -66,7 +67,7 @@ Result<std::vector<Place>> NetworkBoard::AlsoAt(const Place& place) {
   return also;
 }
 
-Result<std::vector<std::string>> NetworkBoard::WhatPasses(const network::Goal& goal) {
+Result<std::vector<std::string>> NetworkRegistry::WhatPasses(const network::Goal& goal) {
   const auto place = Resolve(goal);
   if (!place) return tl::unexpected(place.error());
   if (auto known = Know({KeyOf(place->route).route}); !known) {

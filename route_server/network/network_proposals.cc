@@ -1,10 +1,10 @@
-// This part of NetworkBoard handles junctions that were found.
+// This part of NetworkRegistry handles junctions that were found.
 #include <algorithm>
 #include <map>
 #include <utility>
 
-#include "route_server/network/network_board.h"
 #include "route_server/network/network_ids.h"
+#include "route_server/network/network_registry.h"
 #include "services/exchange/bounds.h"
 
 namespace trailcast::server {
@@ -58,9 +58,8 @@ std::pair<std::string, std::string> PairOf(const Junction& junction) {
 
 }  // namespace
 
-Result<std::optional<NetworkBoard::Proposed>> NetworkBoard::Propose(const Meeting& meeting,
-                                                                    double take_from,
-                                                                    std::int64_t now_unix_ms) {
+Result<std::optional<NetworkRegistry::Proposed>> NetworkRegistry::Propose(
+    const Meeting& meeting, double take_from, std::int64_t now_unix_ms) {
   store::ProposedJunction found{.proposal = {JunctionOf(meeting), meeting.confidence},
                                 .length_m = meeting.length_m};
   const Junction& junction = found.proposal.junction;
@@ -97,26 +96,26 @@ Result<std::optional<NetworkBoard::Proposed>> NetworkBoard::Propose(const Meetin
                   taken};
 }
 
-bool NetworkBoard::WasSearched(const route::RouteKey& key) const {
+bool NetworkRegistry::WasSearched(const route::RouteKey& key) const {
   return searched_.contains(IdOf(key));
 }
 
-void NetworkBoard::MarkSearched(const route::RouteKey& key) {
+void NetworkRegistry::MarkSearched(const route::RouteKey& key) {
   if (searched_.insert(IdOf(key)).second) unsaved_.push_back(IdOf(key));
 }
 
-Result<void> NetworkBoard::SaveSearched() {
+Result<void> NetworkRegistry::SaveSearched() {
   const auto unsaved = std::exchange(unsaved_, {});
   return unsaved.empty() ? Result<void>() : store_->MarkSearched(unsaved);
 }
 
-std::size_t NetworkBoard::open_proposals() const {
+std::size_t NetworkRegistry::open_proposals() const {
   return static_cast<std::size_t>(std::count_if(
       proposed_.begin(), proposed_.end(),
       [](const store::ProposedJunction& each) { return each.verdict == Verdict::kNone; }));
 }
 
-void NetworkBoard::DropProposals(const route::RouteKey& key) {
+void NetworkRegistry::DropProposals(const route::RouteKey& key) {
   const std::string id = IdOf(key);
   const std::size_t dropped = std::erase_if(proposed_, [&](const auto& each) {
     return each.proposal.junction.from.route == id || each.proposal.junction.to.route == id;
@@ -128,7 +127,7 @@ void NetworkBoard::DropProposals(const route::RouteKey& key) {
   (void)store_->DropProposals(id);
 }
 
-std::vector<std::size_t> NetworkBoard::Open() const {
+std::vector<std::size_t> NetworkRegistry::Open() const {
   std::map<std::pair<std::string, std::string>, std::vector<const Junction*>> joined;
   for (const Junction& junction : junctions_) joined[PairOf(junction)].push_back(&junction);
   std::vector<std::size_t> open;
@@ -145,7 +144,7 @@ std::vector<std::size_t> NetworkBoard::Open() const {
   return open;
 }
 
-Result<std::vector<std::size_t>> NetworkBoard::OpenAt(const Junction& named) const {
+Result<std::vector<std::size_t>> NetworkRegistry::OpenAt(const Junction& named) const {
   Junction junction;
   auto from = Resolve(named.from);
   if (!from) return tl::unexpected(from.error());
@@ -165,8 +164,8 @@ Result<std::vector<std::size_t>> NetworkBoard::OpenAt(const Junction& named) con
       network::ToText(named.from), network::ToText(named.to));
 }
 
-Result<std::vector<std::string>> NetworkBoard::Settle(const Edit& edit, const std::string& by,
-                                                      std::int64_t now_unix_ms) {
+Result<std::vector<std::string>> NetworkRegistry::Settle(const Edit& edit, const std::string& by,
+                                                         std::int64_t now_unix_ms) {
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
   auto open = edit.all ? Result<std::vector<std::size_t>>(Open()) : OpenAt(edit.junction);
   if (!open) return tl::unexpected(open.error());

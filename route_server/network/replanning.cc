@@ -18,7 +18,7 @@ using network::Section;
 
 // Two sections of which one continues where the other ends are one to a robot.
 void Append(std::vector<Section>& way, const Section& next) {
-  const bool is_none = next.length_m() <= NetworkBoard::kSame_m && next.turn_rad == 0.0;
+  const bool is_none = next.length_m() <= NetworkRegistry::kSame_m && next.turn_rad == 0.0;
   if (is_none && !way.empty()) return;
   if (!way.empty() && GoesOn(way.back(), next) && way.back().speed == next.speed) {
     way.back().to_m = next.to_m;
@@ -40,8 +40,8 @@ bool AsksForWay(const mission::Record& record) {
 struct Replanning::Rest {
   mission::Going going{};  // without a destination if it was sent along routes by hand
   std::vector<Section> sections{};
-  std::optional<NetworkBoard::Stand> stand{};  // its place, if it has reported one
-  bool missed = false;                         // it is off its path,
+  std::optional<NetworkRegistry::Stand> stand{};  // its place, if it has reported one
+  bool missed = false;                            // it is off its path,
   bool passed = false;                         // and past the place where it had to leave its route
   bool waits = false;                          // for a path
   std::optional<network::Condition> closed{};  // the first closed section on its path

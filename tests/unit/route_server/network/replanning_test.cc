@@ -44,8 +44,8 @@ class ReplanningTest : public testing::Test {
     auto junctions = store::NetworkStore::Open(folder_ / "joints");
     auto missions = store::MissionStore::Open(folder_ / "missions");
     ASSERT_TRUE(junctions && missions);
-    network_ = NetworkBoard::Open(AgentId("server"), std::move(*junctions), routes_).value();
-    missions_ = MissionBoard::Open(AgentId("server"), std::move(*missions)).value();
+    network_ = NetworkRegistry::Open(AgentId("server"), std::move(*junctions), routes_).value();
+    missions_ = MissionRegistry::Open(AgentId("server"), std::move(*missions)).value();
     replanning_.emplace(*missions_, *network_);
   }
   // Returns what an operator who changes it is told of robots.
@@ -102,8 +102,8 @@ class ReplanningTest : public testing::Test {
   const std::string direct_ = "goto office@8 follow hall 0..12 follow office 0..8";
   test::TempDir folder_;
   test::MemoryStore routes_;
-  std::unique_ptr<NetworkBoard> network_;
-  std::unique_ptr<MissionBoard> missions_;
+  std::unique_ptr<NetworkRegistry> network_;
+  std::unique_ptr<MissionRegistry> missions_;
   std::optional<Replanning> replanning_;
   std::chrono::steady_clock::time_point now_{seconds(100)};
   std::uint64_t requests_ = 100;

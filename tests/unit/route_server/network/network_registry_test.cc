@@ -1,4 +1,4 @@
-#include "route_server/network/network_board.h"
+#include "route_server/network/network_registry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using testing::Not;
 using testing::SizeIs;
 
 // hall of 20 m, office of 10 m, ring of 8 m.
-class NetworkBoardTest : public testing::Test {
+class NetworkRegistryTest : public testing::Test {
  protected:
   void SetUp() override {
     Put(1, "hall", 20.0);
@@ -28,12 +28,12 @@ class NetworkBoardTest : public testing::Test {
     Restart();
   }
   void Restart() {
-    board_.reset();
+    registry_.reset();
     auto store = store::NetworkStore::Open(folder_ / "joints");
     ASSERT_TRUE(store) << store.error().message;
-    auto board = NetworkBoard::Open(AgentId("server"), std::move(*store), routes_);
-    ASSERT_TRUE(board) << board.error().message;
-    board_ = std::move(*board);
+    auto registry = NetworkRegistry::Open(AgentId("server"), std::move(*store), routes_);
+    ASSERT_TRUE(registry) << registry.error().message;
+    registry_ = std::move(*registry);
   }
   route::RouteInfo Put(unsigned number, const std::string& name, double length_m,
                        std::uint64_t teaching = 1,
@@ -47,11 +47,12 @@ class NetworkBoardTest : public testing::Test {
     info.standing = standing;
     info.edition = edition;
     EXPECT_TRUE(routes_.PutRoute(info));
-    if (board_) board_->Note(info);
+    if (registry_) registry_->Note(info);
     return info;
   }
   exchange::NetworkReply Edit(const std::string& words, std::uint64_t request = 0) {
-    return board_->Change({AgentId("desk-p7"), request == 0 ? ++requests_ : request, words}, 1000);
+    return registry_->Change({AgentId("desk-p7"), request == 0 ? ++requests_ : request, words},
+                             1000);
   }
   std::vector<std::string> Done(const std::string& words) {
     const auto reply = Edit(words);
@@ -64,7 +65,7 @@ class NetworkBoardTest : public testing::Test {
     return reply.error;
   }
   exchange::NetworkReply Ask(const std::string& words, std::uint32_t first = 0) {
-    const auto reply = board_->Answer({AgentId("desk"), 7, words, first});
+    const auto reply = registry_->Answer({AgentId("desk"), 7, words, first});
     EXPECT_TRUE(exchange::CheckBounds(reply));
     EXPECT_EQ(reply.request, 7U);
     return reply;
@@ -80,7 +81,7 @@ class NetworkBoardTest : public testing::Test {
   }
   // Returns what it adds, "taken: .." if it is made at once.
   std::string Propose(const Meeting& meeting, double take_from = 2.0) {
-    const auto proposed = board_->Propose(meeting, take_from, 1000);
+    const auto proposed = registry_->Propose(meeting, take_from, 1000);
     EXPECT_TRUE(proposed) << proposed.error().message;
     if (!proposed || !*proposed) return "";
     return ((*proposed)->taken ? "taken: " : "") + (*proposed)->line;
@@ -88,11 +89,11 @@ class NetworkBoardTest : public testing::Test {
 
   test::TempDir folder_;
   test::MemoryStore routes_;
-  std::unique_ptr<NetworkBoard> board_;
+  std::unique_ptr<NetworkRegistry> registry_;
   std::uint64_t requests_ = 100;
 };
 
-TEST_F(NetworkBoardTest, JoinedRoutesMakeAWayThatIsAMissionsOrders) {
+TEST_F(NetworkRegistryTest, JoinedRoutesMakeAWayThatIsAMissionsOrders) {
   EXPECT_THAT(Ask("way hall@2 office@8").error, HasSubstr("no way leads from hall@2 to office@8"));
   EXPECT_THAT(Done("join hall@12.0 office@0.0"), ElementsAre("join hall@12 office@0"));
   EXPECT_THAT(Asked("way hall@2 office@8"), ElementsAre("follow hall 2..12", "follow office 0..8"));
@@ -107,7 +108,7 @@ TEST_F(NetworkBoardTest, JoinedRoutesMakeAWayThatIsAMissionsOrders) {
   EXPECT_THAT(Asked(), IsEmpty());
 }
 
-TEST_F(NetworkBoardTest, HomeIsTheNearestPlaceOfThatKind) {
+TEST_F(NetworkRegistryTest, HomeIsTheNearestPlaceOfThatKind) {
   (void)Done("join hall@12 office@0");
   EXPECT_THAT(Ask("way hall@2 home").error, HasSubstr("no place is a home"));
   EXPECT_THAT(Done("name far office@9 home"), ElementsAre("name far office@9 home"));
@@ -126,10 +127,10 @@ TEST_F(NetworkBoardTest, HomeIsTheNearestPlaceOfThatKind) {
   EXPECT_THAT(Asked("way hall@2 home"), ElementsAre("follow hall 2..4")) << "one is called so";
 }
 
-TEST_F(NetworkBoardTest, WhatIsProposedIsNoWayUntilItIsConfirmed) {
+TEST_F(NetworkRegistryTest, WhatIsProposedIsNoWayUntilItIsConfirmed) {
   EXPECT_EQ(Propose({Key(1), Key(2), 12.0, 0.4, 3.0, 0.05, 0.93}),
             "proposed join hall@12 office@0.4 both heading 2.9 confidence 0.93");
-  EXPECT_EQ(board_->open_proposals(), 1U);
+  EXPECT_EQ(registry_->open_proposals(), 1U);
   Restart();
   EXPECT_THAT(Asked(), ElementsAre("route hall 20.00", "route office 10.00",
                                    "proposed join hall@12 office@0.4 both heading 2.9 confidence "
@@ -140,14 +141,14 @@ TEST_F(NetworkBoardTest, WhatIsProposedIsNoWayUntilItIsConfirmed) {
   EXPECT_THAT(Done("confirm office@0 hall@12"),
               ElementsAre("join hall@12 office@0.4 both heading 2.9"));
   EXPECT_THAT(Asked("way hall@2 office@8"), SizeIs(2));
-  EXPECT_EQ(board_->open_proposals(), 0U);
+  EXPECT_EQ(registry_->open_proposals(), 0U);
   Done("part hall@12 office@0.4");
   EXPECT_EQ(Propose({Key(1), Key(2), 12.0, 0.4, 3.0, 0.05, 0.93}), "") << "it had its word";
   Restart();
   EXPECT_THAT(Asked(), IsEmpty());
 }
 
-TEST_F(NetworkBoardTest, WhatWasRefusedIsNotProposedAgainOfTheseRevisions) {
+TEST_F(NetworkRegistryTest, WhatWasRefusedIsNotProposedAgainOfTheseRevisions) {
   Propose({Key(1), Key(2), 12.0, 0.4, 3.0, {}, 0.93});
   EXPECT_THAT(Done("refuse hall@12.3 office@0.7"),
               ElementsAre("proposed join hall@12 office@0.4 both confidence 0.93"));
@@ -164,7 +165,7 @@ TEST_F(NetworkBoardTest, WhatWasRefusedIsNotProposedAgainOfTheseRevisions) {
   EXPECT_NE(Propose({Key(1, 2), Key(2), 12.0, 0.4, 3.0, {}, 0.93}), "");
 }
 
-TEST_F(NetworkBoardTest, NoneIsProposedBesideAJunctionAndOneSideOfAPairIsEnough) {
+TEST_F(NetworkRegistryTest, NoneIsProposedBesideAJunctionAndOneSideOfAPairIsEnough) {
   Done("join hall@12 office@0");
   EXPECT_EQ(Propose({Key(1), Key(2), 13.0, 0.9, 3.0, {}, 0.93}), "");
   EXPECT_NE(Propose({Key(3), Key(2), 1.0, 6.0, 3.0, {}, 0.93}), "");
@@ -175,7 +176,7 @@ TEST_F(NetworkBoardTest, NoneIsProposedBesideAJunctionAndOneSideOfAPairIsEnough)
   EXPECT_THAT(Asked(), Not(Contains(HasSubstr("proposed")))) << "an operator made it himself";
 }
 
-TEST_F(NetworkBoardTest, RoutesThatPassAreFoundFromBothSidesAsFarAsTheyRunTogether) {
+TEST_F(NetworkRegistryTest, RoutesThatPassAreFoundFromBothSidesAsFarAsTheyRunTogether) {
   Done("join hall@2 ring@4");
   // From hall's 9 m and office's 0 m on, for 8 m: proposed three metres into that.
   Propose({Key(1), Key(2), 12.0, 3.0, 8.0, {}, 0.93});
@@ -200,7 +201,7 @@ TEST_F(NetworkBoardTest, RoutesThatPassAreFoundFromBothSidesAsFarAsTheyRunTogeth
   EXPECT_THAT(Asked("passing bay"), ElementsAre("at ring@3", "passes hall@1 join hall@2 ring@4"));
 }
 
-TEST_F(NetworkBoardTest, OfWhatPassesNothingIsSaidTwiceNorOfOtherRevisionsThanAreFollowed) {
+TEST_F(NetworkRegistryTest, OfWhatPassesNothingIsSaidTwiceNorOfOtherRevisionsThanAreFollowed) {
   Done("join hall@12 office@0");
   Done("join hall@13 office@1 both");
   Done("join ring@8 ring@0");
@@ -222,12 +223,12 @@ TEST_F(NetworkBoardTest, OfWhatPassesNothingIsSaidTwiceNorOfOtherRevisionsThanAr
               HasSubstr("hall@1@12.5 is on a revision that robots do not follow"));
 }
 
-TEST_F(NetworkBoardTest, ARouteThatComesBackIsToLeadFromItsEndToItsBeginning) {
+TEST_F(NetworkRegistryTest, ARouteThatComesBackIsToLeadFromItsEndToItsBeginning) {
   EXPECT_EQ(Propose({Key(3), Key(3), 0.0, 7.5, 0.5, -0.1, 0.97}),
             "proposed join ring@7.5 ring@0 both heading 5.7 confidence 0.97");
 }
 
-TEST_F(NetworkBoardTest, AllThatAreSureAreConfirmedAtOnceAndTheOthersRefused) {
+TEST_F(NetworkRegistryTest, AllThatAreSureAreConfirmedAtOnceAndTheOthersRefused) {
   Propose({Key(1), Key(2), 12.0, 0.4, 3.0, {}, 0.93});
   Propose({Key(1), Key(3), 3.0, 1.0, 2.0, {}, 0.7});
   Propose({Key(2), Key(3), 8.0, 5.0, 2.0, {}, 0.9});
@@ -240,40 +241,40 @@ TEST_F(NetworkBoardTest, AllThatAreSureAreConfirmedAtOnceAndTheOthersRefused) {
   EXPECT_THAT(Asked("way hall@2 ring@7"), SizeIs(3));
 }
 
-TEST_F(NetworkBoardTest, SureOnesAreTakenAtOnceWhereThatIsWanted) {
+TEST_F(NetworkRegistryTest, SureOnesAreTakenAtOnceWhereThatIsWanted) {
   EXPECT_EQ(Propose({Key(1), Key(2), 12.0, 0.4, 3.0, {}, 0.93}, 0.9),
             "taken: proposed join hall@12 office@0.4 both confidence 0.93");
   EXPECT_EQ(Propose({Key(1), Key(3), 3.0, 1.0, 2.0, {}, 0.89}, 0.9),
             "proposed join hall@3 ring@1 both confidence 0.89");
   Restart();
   EXPECT_THAT(Asked("way hall@2 office@8"), SizeIs(2));
-  EXPECT_EQ(board_->open_proposals(), 1U);
+  EXPECT_EQ(registry_->open_proposals(), 1U);
 }
 
-TEST_F(NetworkBoardTest, OfAPairOnlySoManyAreProposed) {
-  for (std::size_t i = 0; i < NetworkBoard::kMostOfAPair + 3; ++i) {
+TEST_F(NetworkRegistryTest, OfAPairOnlySoManyAreProposed) {
+  for (std::size_t i = 0; i < NetworkRegistry::kMostOfAPair + 3; ++i) {
     Propose({Key(1), Key(1), 0.3 * static_cast<double>(i), 19.0 - 2.5 * (i % 7), 0.1, {}, 0.9});
   }
-  EXPECT_LE(board_->open_proposals(), NetworkBoard::kMostOfAPair);
-  EXPECT_GE(board_->open_proposals(), 4U);
+  EXPECT_LE(registry_->open_proposals(), NetworkRegistry::kMostOfAPair);
+  EXPECT_GE(registry_->open_proposals(), 4U);
 }
 
-TEST_F(NetworkBoardTest, WhatWasLookedAtIsRememberedUntilItIsDeleted) {
-  EXPECT_FALSE(board_->WasSearched(Key(1)));
-  board_->MarkSearched(Key(1));
-  EXPECT_TRUE(board_->WasSearched(Key(1)));
-  ASSERT_TRUE(board_->SaveSearched());
+TEST_F(NetworkRegistryTest, WhatWasLookedAtIsRememberedUntilItIsDeleted) {
+  EXPECT_FALSE(registry_->WasSearched(Key(1)));
+  registry_->MarkSearched(Key(1));
+  EXPECT_TRUE(registry_->WasSearched(Key(1)));
+  ASSERT_TRUE(registry_->SaveSearched());
   Propose({Key(1), Key(2), 12.0, 0.4, 3.0, {}, 0.93});
   Restart();
-  EXPECT_TRUE(board_->WasSearched(Key(1)));
+  EXPECT_TRUE(registry_->WasSearched(Key(1)));
   Put(1, "hall", 20.0, 1, route::Standing::kDeleted, 2);
-  EXPECT_FALSE(board_->WasSearched(Key(1)));
+  EXPECT_FALSE(registry_->WasSearched(Key(1)));
   Restart();
-  EXPECT_FALSE(board_->WasSearched(Key(1)));
-  EXPECT_EQ(board_->open_proposals(), 0U);
+  EXPECT_FALSE(registry_->WasSearched(Key(1)));
+  EXPECT_EQ(registry_->open_proposals(), 0U);
 }
 
-TEST_F(NetworkBoardTest, TheSameJunctionIsMadeOnce) {
+TEST_F(NetworkRegistryTest, TheSameJunctionIsMadeOnce) {
   Done("join hall@12 office@0");
   EXPECT_THAT(Done("join hall@12.03 office@0 both offset 0.1,-0.2 heading 3"),
               ElementsAre("join hall@12 office@0 both offset 0.1,-0.2 heading 3.0"));
@@ -281,7 +282,7 @@ TEST_F(NetworkBoardTest, TheSameJunctionIsMadeOnce) {
   EXPECT_THAT(Asked("way office@0 hall@13"), ElementsAre("follow hall 12..13"));
 }
 
-TEST_F(NetworkBoardTest, AnEditAskedForAgainIsCarriedOutOnce) {
+TEST_F(NetworkRegistryTest, AnEditAskedForAgainIsCarriedOutOnce) {
   Done("join hall@12 office@0");
   const auto parted = Edit("part hall@12 office@0", 42);
   EXPECT_EQ(parted.error, "");
@@ -289,10 +290,10 @@ TEST_F(NetworkBoardTest, AnEditAskedForAgainIsCarriedOutOnce) {
   EXPECT_NE(Edit("part hall@12 office@0", 43).error, "");
 }
 
-TEST_F(NetworkBoardTest, WhatIsDoneIsToldOnceAndByWhom) {
+TEST_F(NetworkRegistryTest, WhatIsDoneIsToldOnceAndByWhom) {
   const auto made = [this] {
     std::vector<std::string> told;
-    for (const network::Change& change : board_->TakeMade()) {
+    for (const network::Change& change : registry_->TakeMade()) {
       EXPECT_EQ(change.at_unix_ms, 1000);
       EXPECT_EQ(change.by, "desk");
       told.push_back(change.what);
@@ -310,7 +311,7 @@ TEST_F(NetworkBoardTest, WhatIsDoneIsToldOnceAndByWhom) {
   (void)Refused("part office@0 hall@12");
   EXPECT_THAT(made(), ElementsAre("close hall 3..7", "open hall", "name bay office@8", "forget bay",
                                   "part hall@12 office@0"));
-  ASSERT_TRUE(board_->Propose(
+  ASSERT_TRUE(registry_->Propose(
       {.a = Key(1), .b = Key(2), .at_a_m = 5.0, .at_b_m = 1.0, .length_m = 3.0, .confidence = 0.8},
       2.0, 1000));
   EXPECT_THAT(made(), IsEmpty()) << "it is no more than proposed";
@@ -318,7 +319,7 @@ TEST_F(NetworkBoardTest, WhatIsDoneIsToldOnceAndByWhom) {
   EXPECT_THAT(made(), ElementsAre("refuse hall@5 office@1"));
 }
 
-TEST_F(NetworkBoardTest, WhatIsClosedIsAvoidedOrNamedUntilItIsOpened) {
+TEST_F(NetworkRegistryTest, WhatIsClosedIsAvoidedOrNamedUntilItIsOpened) {
   Done("join hall@12 office@0");
   Done("join ring@8 ring@0");
   EXPECT_THAT(Done("close office 3..7"), ElementsAre("close office 3..7"));
@@ -334,7 +335,7 @@ TEST_F(NetworkBoardTest, WhatIsClosedIsAvoidedOrNamedUntilItIsOpened) {
                                                         "follow office 4..8 speed 0.5"));
 }
 
-TEST_F(NetworkBoardTest, AJunctionOfARevisionThatIsNotFollowedIsNotUsed) {
+TEST_F(NetworkRegistryTest, AJunctionOfARevisionThatIsNotFollowedIsNotUsed) {
   Done("join hall@12 office@0");
   Done("close hall 13..14");
   Put(1, "hall", 20.0, 1, route::Standing::kRetired, 1);
@@ -350,7 +351,7 @@ TEST_F(NetworkBoardTest, AJunctionOfARevisionThatIsNotFollowedIsNotUsed) {
   EXPECT_THAT(Done("part hall@1@12 office@0"), ElementsAre("join hall@1@12 office@0"));
 }
 
-TEST_F(NetworkBoardTest, AJunctionOfADeletedRouteIsPartedAsItIsListed) {
+TEST_F(NetworkRegistryTest, AJunctionOfADeletedRouteIsPartedAsItIsListed) {
   Done("join hall@12 office@0");
   Put(2, "office", 10.0, 1, route::Standing::kDeleted, 1);
   EXPECT_THAT(Asked(), ElementsAre("route hall 20.00", "unused join hall@12 office@1@0"));
@@ -358,7 +359,7 @@ TEST_F(NetworkBoardTest, AJunctionOfADeletedRouteIsPartedAsItIsListed) {
   EXPECT_THAT(Asked(), IsEmpty());
 }
 
-TEST_F(NetworkBoardTest, RoutesOfOneNameAreToldApartByTheirIds) {
+TEST_F(NetworkRegistryTest, RoutesOfOneNameAreToldApartByTheirIds) {
   Done("join hall@12 office@0");
   Put(4, "hall", 5.0);
   const std::string id = test::KeyNumber(1).route.value();
@@ -368,23 +369,23 @@ TEST_F(NetworkBoardTest, RoutesOfOneNameAreToldApartByTheirIds) {
   EXPECT_THAT(Refused("close hall"), HasSubstr("hall"));
 }
 
-TEST_F(NetworkBoardTest, ARobotsWayBeginsWhereItLastSaidThatItStands) {
+TEST_F(NetworkRegistryTest, ARobotsWayBeginsWhereItLastSaidThatItStands) {
   Done("join hall@12 office@0");
   EXPECT_THAT(Ask("way robot1 office@8").error, HasSubstr("'robot1' has not said where"));
   exchange::AgentStatus status;
   status.agent = AgentId("robot1");
   status.role = exchange::AgentRole::kFollower;
   status.place = {.key = test::KeyNumber(1), .along_m = 2.004};
-  board_->Hear(status);
+  registry_->Hear(status);
   status.place.reset();
-  board_->Hear(status);
+  registry_->Hear(status);
   EXPECT_THAT(Asked("way robot1 office@8"), ElementsAre("follow hall 2..12", "follow office 0..8"));
   status.place = {.key = test::KeyNumber(9), .along_m = 1.0};
-  board_->Hear(status);
+  registry_->Hear(status);
   EXPECT_THAT(Ask("way robot1 office@8").error, HasSubstr("do not follow, where robot1 may stand"));
 }
 
-TEST_F(NetworkBoardTest, APlaceIsGoneToByItsName) {
+TEST_F(NetworkRegistryTest, APlaceIsGoneToByItsName) {
   Done("join hall@12 office@0");
   EXPECT_THAT(Done("name loading-bay office@8.0"), ElementsAre("name loading-bay office@8"));
   Done("name door ring@1");
@@ -404,7 +405,7 @@ TEST_F(NetworkBoardTest, APlaceIsGoneToByItsName) {
   status.agent = AgentId("gate");
   status.role = exchange::AgentRole::kFollower;
   status.place = {.key = test::KeyNumber(1), .along_m = 2.0};
-  board_->Hear(status);
+  registry_->Hear(status);
   EXPECT_THAT(Asked("way gate loading-bay").front(), "follow hall 2..12") << "a robot of that name";
 
   Put(2, "office", 12.0, 2, route::Standing::kActive, 1);
@@ -417,7 +418,7 @@ TEST_F(NetworkBoardTest, APlaceIsGoneToByItsName) {
   EXPECT_THAT(Refused("name attic attic@2"), HasSubstr("there is no route 'attic'"));
 }
 
-TEST_F(NetworkBoardTest, WhatCannotBeIsRefusedInWords) {
+TEST_F(NetworkRegistryTest, WhatCannotBeIsRefusedInWords) {
   EXPECT_THAT(Refused("join hall@12 attic@0"), HasSubstr("there is no route 'attic'"));
   EXPECT_THAT(Refused("join hall@21 office@0"), HasSubstr("'hall' is 20.00 m long"));
   EXPECT_THAT(Refused("join hall@2 hall@2.01"), HasSubstr("another place"));
@@ -431,7 +432,7 @@ TEST_F(NetworkBoardTest, WhatCannotBeIsRefusedInWords) {
   EXPECT_THAT(Asked(), IsEmpty());
 }
 
-TEST_F(NetworkBoardTest, ALongListIsGivenInPages) {
+TEST_F(NetworkRegistryTest, ALongListIsGivenInPages) {
   for (int i = 0; i < 1100; ++i) {
     Done(fmt::format("join hall@{:.2f} office@{:.2f}", 0.1 * (i % 190), 0.1 * (i / 190)));
   }
@@ -445,7 +446,7 @@ TEST_F(NetworkBoardTest, ALongListIsGivenInPages) {
 }
 
 // Between hall's 4 m and its 10 m one may go round over ring, which is 2 m and a junction more.
-TEST_F(NetworkBoardTest, TheLongerWayIsTakenWhereTheShorterOneWasLostLately) {
+TEST_F(NetworkRegistryTest, TheLongerWayIsTakenWhereTheShorterOneWasLostLately) {
   Done("join hall@14 office@8");
   Done("join hall@4 ring@0");
   Done("join ring@8 hall@10");
@@ -453,36 +454,36 @@ TEST_F(NetworkBoardTest, TheLongerWayIsTakenWhereTheShorterOneWasLostLately) {
   const std::vector<std::string> round{"follow ring 0..8", "follow hall 10..14",
                                        "follow office 8..9"};
   EXPECT_EQ(Asked("way hall@4 office@9"), straight);
-  const std::uint64_t changes = board_->changes();
-  board_->followed().Hear({AgentId("robot1"), Key(1), {{0, 1, 0}, {1, 1, 1}}}, 1000);
-  board_->followed().Hear({AgentId("robot1"), Key(2, 7), {{1, 1, 1}}}, 1000);  // not known
-  ASSERT_TRUE(board_->KeepFollowed(1000));
+  const std::uint64_t changes = registry_->changes();
+  registry_->followed().Hear({AgentId("robot1"), Key(1), {{0, 1, 0}, {1, 1, 1}}}, 1000);
+  registry_->followed().Hear({AgentId("robot1"), Key(2, 7), {{1, 1, 1}}}, 1000);  // not known
+  ASSERT_TRUE(registry_->KeepFollowed(1000));
   EXPECT_EQ(Asked("way hall@4 office@9"), round);
   EXPECT_THAT(Asked(), Contains("lost hall 5..10 1 of 1 cost 2.3"));
-  EXPECT_EQ(board_->changes(), changes) << "who is under way goes on";
+  EXPECT_EQ(registry_->changes(), changes) << "who is under way goes on";
   Restart();
-  ASSERT_TRUE(board_->KeepFollowed(1000));
+  ASSERT_TRUE(registry_->KeepFollowed(1000));
   EXPECT_EQ(Asked("way hall@4 office@9"), round) << "it is durable";
   Done("close ring");
   EXPECT_EQ(Asked("way hall@4 office@9"), straight) << "where there is no other";
   Done("open ring");
   const auto week_ms = static_cast<std::int64_t>(FollowedLately::kHalfAfter_ms);
-  ASSERT_TRUE(board_->KeepFollowed(1000 + 10 * week_ms));
+  ASSERT_TRUE(registry_->KeepFollowed(1000 + 10 * week_ms));
   EXPECT_EQ(Asked("way hall@4 office@9"), straight) << "it was not lately";
   EXPECT_THAT(Asked(), Not(Contains(HasSubstr("lost "))));
 }
 
-TEST_F(NetworkBoardTest, WhereRobotsWereLostOnARevisionThatIsNotFollowedNobodyGoesRoundIt) {
+TEST_F(NetworkRegistryTest, WhereRobotsWereLostOnARevisionThatIsNotFollowedNobodyGoesRoundIt) {
   Done("join hall@14 office@8");
-  board_->followed().Hear({AgentId("robot1"), Key(2), {{1, 1, 1}}}, 1000);
-  ASSERT_TRUE(board_->KeepFollowed(1000));
+  registry_->followed().Hear({AgentId("robot1"), Key(2), {{1, 1, 1}}}, 1000);
+  ASSERT_TRUE(registry_->KeepFollowed(1000));
   EXPECT_THAT(Asked(), Contains("lost office 5..10 1 of 1 cost 2.3"));
   Put(2, "office", 10.0, 1, route::Standing::kRetired, 1);
   Put(2, "office", 10.0, 2, route::Standing::kActive, 1);
   EXPECT_THAT(Asked(), Not(Contains(HasSubstr("lost "))));
 }
 
-TEST_F(NetworkBoardTest, ASectionThatIsDrivenBackwardsTooIsNarrow) {
+TEST_F(NetworkRegistryTest, ASectionThatIsDrivenBackwardsTooIsNarrow) {
   EXPECT_THAT(Done("back office 2.."), ElementsAre("back office 2..", "narrow office 2..10"));
   EXPECT_THAT(Asked("way office@9 office@3"), ElementsAre("follow office backwards 9..3"));
   EXPECT_THAT(Refused("back office 12.."), HasSubstr("12 m is beyond it"));
@@ -492,7 +493,7 @@ TEST_F(NetworkBoardTest, ASectionThatIsDrivenBackwardsTooIsNarrow) {
   EXPECT_THAT(Ask("way office@9 office@3").error, HasSubstr("no way leads"));
 }
 
-TEST_F(NetworkBoardTest, AWayTurnsRoundWhereAJunctionLeadsToTheOppositeDirection) {
+TEST_F(NetworkRegistryTest, AWayTurnsRoundWhereAJunctionLeadsToTheOppositeDirection) {
   Done("join hall@20 office@1 heading 180");
   EXPECT_THAT(Asked("way hall@3 office@4"),
               ElementsAre("follow hall 3..20", "turn 180", "follow office 1..4"));

@@ -1,4 +1,4 @@
-#include "route_server/fleet/mission_board.h"
+#include "route_server/fleet/mission_registry.h"
 
 #include <fmt/format.h>
 
@@ -48,20 +48,21 @@ mission::Report PutOff(const mission::Mission& mission, const std::string& why) 
   return OwnReport(mission, mission::State::kPutOff, why);
 }
 
-Result<std::unique_ptr<MissionBoard>> MissionBoard::Open(
+Result<std::unique_ptr<MissionRegistry>> MissionRegistry::Open(
     AgentId server, std::unique_ptr<store::MissionStore> store) {
-  std::unique_ptr<MissionBoard> board(new MissionBoard(std::move(server), std::move(store)));
-  auto unanswered = board->store_->Unanswered();
+  std::unique_ptr<MissionRegistry> registry(
+      new MissionRegistry(std::move(server), std::move(store)));
+  auto unanswered = registry->store_->Unanswered();
   if (!unanswered) return tl::unexpected(unanswered.error());
   for (mission::Record& record : *unanswered) {
-    board->unanswered_[record.mission.agent].emplace_back(std::move(record));
+    registry->unanswered_[record.mission.agent].emplace_back(std::move(record));
   }
-  if (auto loaded = board->LoadCurrent(); !loaded) return tl::unexpected(loaded.error());
-  if (auto loaded = board->LoadQueues(); !loaded) return tl::unexpected(loaded.error());
-  return board;
+  if (auto loaded = registry->LoadCurrent(); !loaded) return tl::unexpected(loaded.error());
+  if (auto loaded = registry->LoadQueues(); !loaded) return tl::unexpected(loaded.error());
+  return registry;
 }
 
-Result<void> MissionBoard::LoadCurrent() {
+Result<void> MissionRegistry::LoadCurrent() {
   mission::Query query{.states = UnendedStates()};
   while (current_.size() < kMostAgents) {
     auto page = store_->Find(query);
@@ -77,13 +78,13 @@ Result<void> MissionBoard::LoadCurrent() {
   return {};
 }
 
-std::size_t MissionBoard::unanswered() const {
+std::size_t MissionRegistry::unanswered() const {
   std::size_t count = 0;
   for (const auto& [agent, missions] : unanswered_) count += missions.size();
   return count;
 }
 
-void MissionBoard::Handle(const exchange::Message& message, Time now, std::int64_t now_unix_ms) {
+void MissionRegistry::Handle(const exchange::Message& message, Time now, std::int64_t now_unix_ms) {
   if (const auto* mission = std::get_if<mission::Mission>(&message)) {
     if (!mission->relayed) Take({mission, 1}, now, now_unix_ms);
   } else if (const auto* report = std::get_if<mission::Report>(&message)) {
@@ -101,19 +102,19 @@ void MissionBoard::Handle(const exchange::Message& message, Time now, std::int64
   }
 }
 
-void MissionBoard::Say(mission::Report report) {
+void MissionRegistry::Say(mission::Report report) {
   report.relayed = true;
   outgoing_.emplace_back(std::move(report));
 }
 
-bool MissionBoard::Refuses(const mission::Mission& mission) {
+bool MissionRegistry::Refuses(const mission::Mission& mission) {
   const auto tasks = mission::ParseOrders(mission.orders);
   if (!tasks) Say(OwnReport(mission, mission::State::kRefused, tasks.error().message));
   return !tasks;
 }
 
-void MissionBoard::Take(std::span<const mission::Mission> missions, Time now,
-                        std::int64_t now_unix_ms) {
+void MissionRegistry::Take(std::span<const mission::Mission> missions, Time now,
+                           std::int64_t now_unix_ms) {
   std::vector<mission::Mission> readable;
   for (const mission::Mission& mission : missions) {
     if (!Refuses(mission)) readable.push_back(mission);
@@ -131,7 +132,7 @@ void MissionBoard::Take(std::span<const mission::Mission> missions, Time now,
   }
 }
 
-void MissionBoard::Keep(const mission::Mission& mission, mission::Record stored) {
+void MissionRegistry::Keep(const mission::Mission& mission, mission::Record stored) {
   if (!AreSame(stored.mission.orders, mission.orders)) {
     Say(OwnReport(mission, mission::State::kRefused,
                   fmt::format("the robot's mission {} is another one: {}", mission.id,
@@ -155,7 +156,7 @@ void MissionBoard::Keep(const mission::Mission& mission, mission::Record stored)
 }
 
 // Handles a robot's report, which is on the disk before the server repeats it.
-void MissionBoard::On(const mission::Report& report, std::int64_t now_unix_ms) {
+void MissionRegistry::On(const mission::Report& report, std::int64_t now_unix_ms) {
   HoldAfter(report, now_unix_ms);
   const auto are_news = store_->Change({&report, 1}, now_unix_ms);
   NoteStored(are_news);
@@ -183,7 +184,7 @@ void MissionBoard::On(const mission::Report& report, std::int64_t now_unix_ms) {
                                 PlainText(report.detail, 200))});
 }
 
-void MissionBoard::NoteCurrent(const mission::Report& report) {
+void MissionRegistry::NoteCurrent(const mission::Report& report) {
   if (!mission::HasEnded(report.state)) {
     unended_.Touch(report.agent)[report.mission] = report;
   } else if (auto* unended = unended_.Find(report.agent)) {
@@ -206,7 +207,7 @@ void MissionBoard::NoteCurrent(const mission::Report& report) {
   current_.Touch(report.agent) = {.record = std::move(found->missions.front())};
 }
 
-void MissionBoard::NoteOther(const mission::Report& report) {
+void MissionRegistry::NoteOther(const mission::Report& report) {
   auto* unended = unended_.Find(report.agent);
   const bool has_ended = mission::HasEnded(report.state);
   const bool is_noted = unended != nullptr && unended->contains(report.mission);
@@ -223,18 +224,18 @@ void MissionBoard::NoteOther(const mission::Report& report) {
   if (Heard* heard = heard_.Find(report.agent)) heard->tell_at = {};
 }
 
-const mission::Record* MissionBoard::CurrentOf(const AgentId& agent) const {
+const mission::Record* MissionRegistry::CurrentOf(const AgentId& agent) const {
   const Current* current = current_.Find(agent);
   return current == nullptr ? nullptr : &current->record;
 }
 
-std::vector<AgentId> MissionBoard::AtWork() const {
+std::vector<AgentId> MissionRegistry::AtWork() const {
   std::vector<AgentId> agents;
   for (const auto& [agent, current] : current_) agents.push_back(agent);
   return agents;
 }
 
-Result<void> MissionBoard::Amend(const AgentId& agent, const std::string& orders) {
+Result<void> MissionRegistry::Amend(const AgentId& agent, const std::string& orders) {
   Current* current = current_.Find(agent);
   if (current == nullptr) return Fail(ErrorCode::kNotFound, "'{}' has no mission", agent.value());
   mission::Mission& mission = current->record.mission;
@@ -248,8 +249,8 @@ Result<void> MissionBoard::Amend(const AgentId& agent, const std::string& orders
   return {};
 }
 
-Result<void> MissionBoard::LookUp(const exchange::MissionRequest& request,
-                                  exchange::MissionReply& reply) {
+Result<void> MissionRegistry::LookUp(const exchange::MissionRequest& request,
+                                     exchange::MissionReply& reply) {
   if (request.commands) {
     auto page = store_->FindCommands(request.query);
     if (!page) return tl::unexpected(page.error());
@@ -274,7 +275,7 @@ Result<void> MissionBoard::LookUp(const exchange::MissionRequest& request,
 }
 
 // Returns the robot itself if it was heard; else who asks can say which may have been meant.
-std::vector<std::string> MissionBoard::RobotsLike(const std::string& robot) const {
+std::vector<std::string> MissionRegistry::RobotsLike(const std::string& robot) const {
   if (met_.Find(AgentId(robot)) != nullptr) return {robot};
   std::vector<std::string> robots;
   for (const auto& [agent, met] : met_) {
@@ -284,7 +285,7 @@ std::vector<std::string> MissionBoard::RobotsLike(const std::string& robot) cons
   return robots;
 }
 
-void MissionBoard::On(const exchange::MissionRequest& request) {
+void MissionRegistry::On(const exchange::MissionRequest& request) {
   exchange::MissionReply reply{
       .server = server_, .client = request.client, .request = request.request};
   if (const auto looked_up = LookUp(request, reply); !looked_up) {
@@ -293,7 +294,7 @@ void MissionBoard::On(const exchange::MissionRequest& request) {
   outgoing_.emplace_back(std::move(reply));
 }
 
-void MissionBoard::On(const exchange::AgentStatus& status, Time now) {
+void MissionRegistry::On(const exchange::AgentStatus& status, Time now) {
   const bool is_there =
       status.role == exchange::AgentRole::kFollower && status.mode != exchange::AgentMode::kStopped;
   if (!is_there) {
@@ -319,14 +320,14 @@ void MissionBoard::On(const exchange::AgentStatus& status, Time now) {
   }
 }
 
-void MissionBoard::On(const exchange::AgentGone& gone) {
+void MissionRegistry::On(const exchange::AgentGone& gone) {
   const Heard* heard = heard_.Find(gone.agent);
   if (heard == nullptr || heard->instance != gone.instance) return;
   heard_.Erase(gone.agent);
   changed_.insert(gone.agent);
 }
 
-void MissionBoard::Agree(Time now) {
+void MissionRegistry::Agree(Time now) {
   for (auto& [agent, heard] : heard_) {
     const auto* unended = now < heard.agree_at ? nullptr : unended_.Find(agent);
     if (unended == nullptr) continue;
@@ -336,7 +337,7 @@ void MissionBoard::Agree(Time now) {
   }
 }
 
-std::vector<exchange::Message> MissionBoard::Tick(Time now, std::int64_t now_unix_ms) {
+std::vector<exchange::Message> MissionRegistry::Tick(Time now, std::int64_t now_unix_ms) {
   if (now >= expire_at_) {
     expire_at_ = now + kExpireEvery;
     Expire(now, now_unix_ms);

@@ -1,4 +1,4 @@
-#include "route_server/network/lane_keeper.h"
+#include "route_server/network/zone_admission.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 // hall of 40 m, narrow from 10 to 14 m, and back, the same way the other way round.
-class LaneKeeperTest : public testing::Test {
+class ZoneAdmissionTest : public testing::Test {
  protected:
   void SetUp() override {
     Put(1, "hall", 40.0);
@@ -45,8 +45,8 @@ class LaneKeeperTest : public testing::Test {
     auto junctions = store::NetworkStore::Open(folder_ / "joints");
     auto missions = store::MissionStore::Open(folder_ / "missions");
     ASSERT_TRUE(junctions && missions);
-    network_ = NetworkBoard::Open(AgentId("server"), std::move(*junctions), routes_).value();
-    missions_ = MissionBoard::Open(AgentId("server"), std::move(*missions)).value();
+    network_ = NetworkRegistry::Open(AgentId("server"), std::move(*junctions), routes_).value();
+    missions_ = MissionRegistry::Open(AgentId("server"), std::move(*missions)).value();
     keeper_.emplace(*missions_, *network_);
     (void)keeper_->LookAtAll(now_);
   }
@@ -112,15 +112,15 @@ class LaneKeeperTest : public testing::Test {
 
   test::TempDir folder_;
   test::MemoryStore routes_;
-  std::unique_ptr<NetworkBoard> network_;
-  std::unique_ptr<MissionBoard> missions_;
-  std::optional<LaneKeeper> keeper_;
+  std::unique_ptr<NetworkRegistry> network_;
+  std::unique_ptr<MissionRegistry> missions_;
+  std::optional<ZoneAdmission> keeper_;
   std::chrono::steady_clock::time_point now_{seconds(100)};
   std::uint64_t requests_ = 100;
   std::uint32_t change_ = 0;
 };
 
-TEST_F(LaneKeeperTest, OneIsLetInAndTheOtherOnceThatIsSeenOutOfIt) {
+TEST_F(ZoneAdmissionTest, OneIsLetInAndTheOtherOnceThatIsSeenOutOfIt) {
   Meet();
   EXPECT_THAT(All(), Contains("narrow hall 10..14 back 26..30, taken by robot1"));
   EXPECT_THAT(IsAt("robot1", 1, 14.3), IsEmpty());
@@ -131,7 +131,7 @@ TEST_F(LaneKeeperTest, OneIsLetInAndTheOtherOnceThatIsSeenOutOfIt) {
   EXPECT_THAT(Orders("robot2"), HasSubstr("way 3 admitted follow back 25.5..38 because enters"));
 }
 
-TEST_F(LaneKeeperTest, ThereHasToBeRoomBeyondIt) {
+TEST_F(ZoneAdmissionTest, ThereHasToBeRoomBeyondIt) {
   Send("robot3", "goto hall@15 follow hall 15..39");
   Say("robot3", State::kUnderWay);
   EXPECT_THAT(IsAt("robot3", 1, 15.5), IsEmpty());
@@ -146,11 +146,11 @@ TEST_F(LaneKeeperTest, ThereHasToBeRoomBeyondIt) {
   EXPECT_THAT(IsAt("robot1", 1, 9.5), ElementsAre(HasSubstr("enters hall 10..14")));
 }
 
-TEST_F(LaneKeeperTest, WhoseItIsStandsAlsoAfterARestart) {
+TEST_F(ZoneAdmissionTest, WhoseItIsStandsAlsoAfterARestart) {
   Meet();
   Restart();
   EXPECT_THAT(IsAt("robot2", 2, 25.5), IsEmpty());
-  now_ += LaneKeeper::kSilent;
+  now_ += ZoneAdmission::kSilent;
   EXPECT_THAT(IsAt("robot2", 2, 25.5),
               ElementsAre(AllOf(HasSubstr("waits for robot1 to leave hall 10..14; it is not heard"),
                                 HasSubstr("'trailcast network vacate hall 10..14'"))));
@@ -160,7 +160,7 @@ TEST_F(LaneKeeperTest, WhoseItIsStandsAlsoAfterARestart) {
 }
 
 // A reason that has no room in one line of orders is told short.
-TEST_F(LaneKeeperTest, AReasonThatIsToldShortIsToldOnce) {
+TEST_F(ZoneAdmissionTest, AReasonThatIsToldShortIsToldOnce) {
   Meet();
   std::string way = "goto back@38 follow back 5..25.5 wait lane follow back 25.5..38";
   for (int i = 0; i < 22; ++i) way += " follow back 34..35";
@@ -174,7 +174,7 @@ TEST_F(LaneKeeperTest, AReasonThatIsToldShortIsToldOnce) {
   EXPECT_EQ(Orders("robot3"), told);
 }
 
-TEST_F(LaneKeeperTest, OneThatFailsInItKeepsItUntilAnOperatorSaysOtherwise) {
+TEST_F(ZoneAdmissionTest, OneThatFailsInItKeepsItUntilAnOperatorSaysOtherwise) {
   Meet();
   (void)IsAt("robot1", 1, 12.0);
   Say("robot1", State::kFailed);
@@ -185,7 +185,7 @@ TEST_F(LaneKeeperTest, OneThatFailsInItKeepsItUntilAnOperatorSaysOtherwise) {
   EXPECT_THAT(IsAt("robot2", 2, 25.5), ElementsAre(HasSubstr("enters hall 10..14")));
 }
 
-TEST_F(LaneKeeperTest, OneThatIsNotHeardIsBarredWhenAnOperatorHasLooked) {
+TEST_F(ZoneAdmissionTest, OneThatIsNotHeardIsBarredWhenAnOperatorHasLooked) {
   Meet();
   EXPECT_THAT(Edit("vacate back"),
               ElementsAre(HasSubstr("robot1: mission m1 is told to wait: hall 10..14 is narrow")));
@@ -194,14 +194,14 @@ TEST_F(LaneKeeperTest, OneThatIsNotHeardIsBarredWhenAnOperatorHasLooked) {
   EXPECT_THAT(IsAt("robot2", 2, 25.5), ElementsAre(HasSubstr("enters hall 10..14")));
 }
 
-TEST_F(LaneKeeperTest, OneWhoseMissionIsCancelledBeforeItNeedsItNoMore) {
+TEST_F(ZoneAdmissionTest, OneWhoseMissionIsCancelledBeforeItNeedsItNoMore) {
   Meet();
   Say("robot1", State::kCancelled);
   EXPECT_THAT(IsAt("robot1", 1, 9.3), IsEmpty());
   EXPECT_THAT(IsAt("robot1", 1, 9.3), Contains("robot1 has left hall 10..14"));
 }
 
-TEST_F(LaneKeeperTest, ARobotThatIsSentByHandHasWhatItIsSentOver) {
+TEST_F(ZoneAdmissionTest, ARobotThatIsSentByHandHasWhatItIsSentOver) {
   Send("robot3", "follow hall");
   EXPECT_THAT(IsAt("robot3", 3, 1.0), IsEmpty()) << "where it was before";
   Say("robot3", State::kUnderWay);
@@ -213,14 +213,14 @@ TEST_F(LaneKeeperTest, ARobotThatIsSentByHandHasWhatItIsSentOver) {
   EXPECT_THAT(Orders("robot2"), HasSubstr("waits for robot3 to leave hall 10..14"));
 }
 
-TEST_F(LaneKeeperTest, OneThatIsSeenInWhatAnotherHasIsTold) {
+TEST_F(ZoneAdmissionTest, OneThatIsSeenInWhatAnotherHasIsTold) {
   Meet();
   EXPECT_THAT(IsAt("stranger", 2, 28.0),
               ElementsAre("stranger is in hall 10..14, which robot1 has: it is not stopped"));
   EXPECT_THAT(All(), Contains(HasSubstr("taken by robot1 stranger")));
 }
 
-TEST_F(LaneKeeperTest, WhatBecomesNarrowUnderWayIsItsOwnUntilItHasHeardThatItIsToWait) {
+TEST_F(ZoneAdmissionTest, WhatBecomesNarrowUnderWayIsItsOwnUntilItHasHeardThatItIsToWait) {
   Send("robot1", "goto yard@30 follow yard 0..30");
   Say("robot1", State::kUnderWay);
   EXPECT_THAT(IsAt("robot1", 3, 2.0), IsEmpty());
@@ -240,7 +240,7 @@ TEST_F(LaneKeeperTest, WhatBecomesNarrowUnderWayIsItsOwnUntilItHasHeardThatItIsT
               ElementsAre("robot1: mission m1 enters what is no longer narrow"));
 }
 
-TEST_F(LaneKeeperTest, AWayIsAnsweredWithWhereItWaits) {
+TEST_F(ZoneAdmissionTest, AWayIsAnsweredWithWhereItWaits) {
   const auto reply = network_->Answer(
       {.client = AgentId("desk"), .request = ++requests_, .words = "way hall@2 hall@30"});
   EXPECT_THAT(reply.lines, ElementsAre("follow hall 2..9.5", "wait lane", "follow hall 9.5..30"))

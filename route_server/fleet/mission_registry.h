@@ -34,14 +34,14 @@ namespace trailcast::server {
 // other end, and after a stop, it is held until the robot is told to resume, also over a restart of
 // this server, and even if the robot never heard of the stop. A robot that obeys a command to go
 // home is sent there before its queue, which is held likewise.
-class MissionBoard {
+class MissionRegistry {
  public:
   using Time = std::chrono::steady_clock::time_point;
   // Strangers can make up names, so beyond this number the one with the oldest news is forgotten.
   static constexpr std::size_t kMostAgents = 4096;
 
   // Loads the missions that no robot has answered.
-  [[nodiscard]] static Result<std::unique_ptr<MissionBoard>> Open(
+  [[nodiscard]] static Result<std::unique_ptr<MissionRegistry>> Open(
       AgentId server, std::unique_ptr<store::MissionStore> store);
 
   void Handle(const exchange::Message& message, Time now, std::int64_t now_unix_ms);
@@ -74,7 +74,7 @@ class MissionBoard {
   [[nodiscard]] Result<void> Amend(const AgentId& agent, const std::string& orders);
 
  private:
-  MissionBoard(AgentId server, std::unique_ptr<store::MissionStore> store)
+  MissionRegistry(AgentId server, std::unique_ptr<store::MissionStore> store)
       : server_(std::move(server)), store_(std::move(store)) {}
 
   void On(const mission::Report& report, std::int64_t now_unix_ms);

@@ -1,4 +1,4 @@
-#include "route_server/network/lane_keeper.h"
+#include "route_server/network/zone_admission.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ using mission::State;
 using mission::Task;
 using network::Leg;
 using network::Section;
-using LaneSet = NetworkBoard::LaneSet;
+using LaneSet = NetworkRegistry::LaneSet;
 using Why = mission::Going::Why;
 
 LaneSet Without(const LaneSet& all, const LaneSet& those) {
@@ -68,7 +68,7 @@ std::string Who(const mission::Record& record) {
 }  // namespace
 
 // The rest of a robot's path.
-struct LaneKeeper::Rest {
+struct ZoneAdmission::Rest {
   mission::Going going{};        // without a destination if it was sent along routes by hand
   std::vector<Section> now{};    // what it may drive,
   std::vector<Section> later{};  // and what follows once it is let in
@@ -84,7 +84,7 @@ struct LaneKeeper::Rest {
   }
 };
 
-LaneKeeper::Lines LaneKeeper::LookAtAll(Time now) {
+ZoneAdmission::Lines ZoneAdmission::LookAtAll(Time now) {
   Lines lines;
   if (!since_) since_ = now;
   if (!network_.HasLanes()) return lines;
@@ -105,7 +105,7 @@ LaneKeeper::Lines LaneKeeper::LookAtAll(Time now) {
   return lines;
 }
 
-LaneKeeper::Lines LaneKeeper::Look(const AgentId& agent, Time now) {
+ZoneAdmission::Lines ZoneAdmission::Look(const AgentId& agent, Time now) {
   Lines lines;
   if (!network_.HasLanes() && !MayWait(missions_.CurrentOf(agent))) return lines;
   robots_.Touch(agent).heard_at = now;
@@ -128,7 +128,7 @@ LaneKeeper::Lines LaneKeeper::Look(const AgentId& agent, Time now) {
   return lines;
 }
 
-Result<LaneKeeper::Rest> LaneKeeper::RestOf(const mission::Record& record, Robot& robot) {
+Result<ZoneAdmission::Rest> ZoneAdmission::RestOf(const mission::Record& record, Robot& robot) {
   const auto& [sent, last, sent_ms, changed_ms] = record;
   if (robot.mission != sent.id || robot.orders != sent.orders) {
     robot.mission = sent.id;
@@ -186,7 +186,7 @@ Result<LaneKeeper::Rest> LaneKeeper::RestOf(const mission::Record& record, Robot
   return rest;
 }
 
-Result<bool> LaneKeeper::Settle(const AgentId& agent, Robot& robot, Time now, Lines& lines) {
+Result<bool> ZoneAdmission::Settle(const AgentId& agent, Robot& robot, Time now, Lines& lines) {
   const auto lanes = network_.Lanes();
   if (!lanes) return tl::unexpected(lanes.error());
   const mission::Record* record = missions_.CurrentOf(agent);
@@ -254,7 +254,7 @@ Result<bool> LaneKeeper::Settle(const AgentId& agent, Robot& robot, Time now, Li
 }
 
 // Orders the robot to wait before zones that it may not enter.
-Result<void> LaneKeeper::Bar(const mission::Record& record, const Rest& rest, Lines& lines) {
+Result<void> ZoneAdmission::Bar(const mission::Record& record, const Rest& rest, Lines& lines) {
   std::vector<Section> way = rest.now;
   way.insert(way.end(), rest.later.begin(), rest.later.end());
   const double ahead_m =
@@ -273,7 +273,7 @@ Result<void> LaneKeeper::Bar(const mission::Record& record, const Rest& rest, Li
   return Amend(record, rest, tasks, Why::kReplanned, because);
 }
 
-Result<void> LaneKeeper::LetIn(const AgentId& agent, Robot& robot, Time now, Lines& lines) {
+Result<void> ZoneAdmission::LetIn(const AgentId& agent, Robot& robot, Time now, Lines& lines) {
   const mission::Record* record = missions_.CurrentOf(agent);
   if (record == nullptr) return {};
   auto rest = RestOf(*record, robot);
@@ -323,8 +323,8 @@ Result<void> LaneKeeper::LetIn(const AgentId& agent, Robot& robot, Time now, Lin
   return Amend(*record, *rest, network_.TasksOf(legs), Why::kAdmitted, because);
 }
 
-std::optional<LaneKeeper::WhyNot> LaneKeeper::WhyNotInto(const AgentId& agent, const Leg& leg,
-                                                         Time now) {
+std::optional<ZoneAdmission::WhyNot> ZoneAdmission::WhyNotInto(const AgentId& agent, const Leg& leg,
+                                                               Time now) {
   for (const std::size_t lane : leg.lanes) {
     for (const AgentId& other : network_.HoldersOf(lane)) {
       if (other == agent) continue;
@@ -351,7 +351,7 @@ std::optional<LaneKeeper::WhyNot> LaneKeeper::WhyNotInto(const AgentId& agent, c
   return std::nullopt;
 }
 
-std::string LaneKeeper::ToText(const WhyNot& why_not) {
+std::string ZoneAdmission::ToText(const WhyNot& why_not) {
   const auto& [other, lane, is_silent] = why_not;
   if (lane.empty()) {
     return fmt::format("waits for {}, which is ahead of it, to go on", other.value());
@@ -364,9 +364,9 @@ std::string LaneKeeper::ToText(const WhyNot& why_not) {
   return text;
 }
 
-Result<void> LaneKeeper::Amend(const mission::Record& record, const Rest& rest,
-                               const std::vector<Task>& tasks, Why why,
-                               const std::string& because) {
+Result<void> ZoneAdmission::Amend(const mission::Record& record, const Rest& rest,
+                                  const std::vector<Task>& tasks, Why why,
+                                  const std::string& because) {
   const std::string orders = NextWay(rest.going, tasks, why, because);
   if (orders.size() > exchange::kMaxLineBytes) {
     return Fail(ErrorCode::kInvalidArgument,

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "route_server/fleet/mission_board.h"
-#include "route_server/network/network_board.h"
+#include "route_server/fleet/mission_registry.h"
+#include "route_server/network/network_registry.h"
 #include "services/base/newest_map.h"
 #include "services/mission/orders.h"
 
@@ -21,7 +21,7 @@ namespace trailcast::server {
 // granted together, and only once there is room beyond them. Robots that do not ask (sent by hand,
 // or on no mission) hold the zones in which they are, or through which they are sent, whoever else
 // holds them. It has no clock of its own.
-class LaneKeeper {
+class ZoneAdmission {
  public:
   using Time = std::chrono::steady_clock::time_point;
   using Lines = std::vector<std::string>;
@@ -38,7 +38,7 @@ class LaneKeeper {
   static constexpr double kTakesPlace_m = 0.2;
 
   // Both must outlive this.
-  LaneKeeper(MissionBoard& missions, NetworkBoard& network)
+  ZoneAdmission(MissionRegistry& missions, NetworkRegistry& network)
       : missions_(missions), network_(network) {}
 
   // Looks at a robot that was heard, and returns lines for the log.
@@ -62,7 +62,7 @@ class LaneKeeper {
     std::size_t at = 0;     // index of the section of its first leg that it has reached,
     double driven_m = 0.0;  // and its metres on that
     std::optional<Time> heard_at{};
-    NetworkBoard::LaneSet out_of{};  // zones that it holds but has left, and since when
+    NetworkRegistry::LaneSet out_of{};  // zones that it holds but has left, and since when
     Time out_since{};
     std::optional<Time> waits_since{};  // for a zone,
     std::optional<WhyNot> told{};       // and the last reason it was told
@@ -80,9 +80,9 @@ class LaneKeeper {
                                    const std::vector<mission::Task>& tasks, mission::Going::Why why,
                                    const std::string& because);
 
-  MissionBoard& missions_;
-  NetworkBoard& network_;
-  NewestMap<AgentId, Robot> robots_{MissionBoard::kMostAgents};
+  MissionRegistry& missions_;
+  NetworkRegistry& network_;
+  NewestMap<AgentId, Robot> robots_{MissionRegistry::kMostAgents};
   std::optional<Time> since_{};
 };
 

@@ -28,7 +28,7 @@ namespace trailcast::server {
 // those that robots follow. A named place is likewise on one revision. Closures and limits apply to
 // whichever revision is followed. Junctions that were found are proposed while both revisions are
 // followed, until an operator has confirmed or refused them. It has no clock of its own.
-class NetworkBoard {
+class NetworkRegistry {
  public:
   // Strangers can make up names, so beyond this number the one with the oldest news is forgotten.
   static constexpr std::size_t kMostAgents = 4096;
@@ -40,7 +40,7 @@ class NetworkBoard {
   static constexpr std::size_t kMostOfAPair = 8;
 
   // `routes` must outlive this.
-  [[nodiscard]] static Result<std::unique_ptr<NetworkBoard>> Open(
+  [[nodiscard]] static Result<std::unique_ptr<NetworkRegistry>> Open(
       AgentId server, std::unique_ptr<store::NetworkStore> store, store::RouteStore& routes);
 
   // Makes an edit, which is on the disk when this returns. A repeated request is answered again,
@@ -129,8 +129,8 @@ class NetworkBoard {
     std::optional<route::RouteInfo> followed;
     std::string called;  // its name, or its id if the name may mean others, too
   };
-  NetworkBoard(AgentId server, std::unique_ptr<store::NetworkStore> store,
-               store::RouteStore& routes)
+  NetworkRegistry(AgentId server, std::unique_ptr<store::NetworkStore> store,
+                  store::RouteStore& routes)
       : server_(std::move(server)),
         store_(std::move(store)),
         routes_(routes),

@@ -1,4 +1,4 @@
-#include "route_server/fleet/mission_board.h"
+#include "route_server/fleet/mission_registry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,16 +23,16 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-class MissionBoardTest : public testing::Test {
+class MissionRegistryTest : public testing::Test {
  protected:
   void SetUp() override { Restart(); }
   void Restart() {
-    board_.reset();
+    registry_.reset();
     auto store = store::MissionStore::Open(folder_ / "missions");
     ASSERT_TRUE(store) << store.error().message;
-    auto board = MissionBoard::Open(AgentId("server"), std::move(*store));
-    ASSERT_TRUE(board) << board.error().message;
-    board_ = std::move(*board);
+    auto registry = MissionRegistry::Open(AgentId("server"), std::move(*store));
+    ASSERT_TRUE(registry) << registry.error().message;
+    registry_ = std::move(*registry);
   }
   static Mission For(const std::string& id, const std::string& orders = "follow hall") {
     return {.agent = AgentId("robot1"),
@@ -41,12 +41,12 @@ class MissionBoardTest : public testing::Test {
             .orders = orders,
             .valid_for_s = 60};
   }
-  void Hear(const exchange::Message& message) { board_->Handle(message, now_, unix_ms_); }
+  void Hear(const exchange::Message& message) { registry_->Handle(message, now_, unix_ms_); }
   void Pass(milliseconds time) {
     now_ += time;
     unix_ms_ += time.count();
   }
-  std::vector<exchange::Message> Say() { return board_->Tick(now_, unix_ms_); }
+  std::vector<exchange::Message> Say() { return registry_->Tick(now_, unix_ms_); }
   // Returns what it says of missions, and what it hands over.
   std::optional<Report> Said() {
     std::optional<Report> report;
@@ -106,11 +106,11 @@ class MissionBoardTest : public testing::Test {
   test::TempDir folder_;
   std::chrono::steady_clock::time_point now_{};
   std::int64_t unix_ms_ = 1'700'000'000'000;
-  std::unique_ptr<MissionBoard> board_;
+  std::unique_ptr<MissionRegistry> registry_;
   std::uint64_t commands_ = 0;
 };
 
-TEST_F(MissionBoardTest, SaysThatItKeepsAMissionEachTimeThatItIsSent) {
+TEST_F(MissionRegistryTest, SaysThatItKeepsAMissionEachTimeThatItIsSent) {
   Hear(For("m1"));
   const auto kept = Said();
   ASSERT_TRUE(kept);
@@ -118,11 +118,11 @@ TEST_F(MissionBoardTest, SaysThatItKeepsAMissionEachTimeThatItIsSent) {
   EXPECT_TRUE(kept->relayed);
   Hear(For("m1"));
   EXPECT_TRUE(Said());
-  EXPECT_EQ(board_->unanswered(), 1U);
-  EXPECT_THAT(board_->TakeNotes(), SizeIs(1)) << "it is news once";
+  EXPECT_EQ(registry_->unanswered(), 1U);
+  EXPECT_THAT(registry_->TakeNotes(), SizeIs(1)) << "it is news once";
 }
 
-TEST_F(MissionBoardTest, HandsItOverOnceTheRobotIsThereAndUntilItHasAnswered) {
+TEST_F(MissionRegistryTest, HandsItOverOnceTheRobotIsThereAndUntilItHasAnswered) {
   Hear(For("m1"));
   EXPECT_FALSE(HandedOver()) << "to nobody";
   RobotIsThere();
@@ -143,7 +143,7 @@ TEST_F(MissionBoardTest, HandsItOverOnceTheRobotIsThereAndUntilItHasAnswered) {
   EXPECT_EQ(StateOf("m1"), State::kAccepted);
 }
 
-TEST_F(MissionBoardTest, KeepsItOverARestart) {
+TEST_F(MissionRegistryTest, KeepsItOverARestart) {
   Hear(For("m1"));
   Restart();
   RobotIsThere();
@@ -157,7 +157,7 @@ TEST_F(MissionBoardTest, KeepsItOverARestart) {
   EXPECT_EQ(StateOf("m1"), State::kAccepted);
 }
 
-TEST_F(MissionBoardTest, ABusyRobotsMissionsQueueAndEachSaysWhatItWaitsFor) {
+TEST_F(MissionRegistryTest, ABusyRobotsMissionsQueueAndEachSaysWhatItWaitsFor) {
   Hear(For("m1"));
   Hear(For("m2", "follow yard"));
   EXPECT_THAT(WaitsFor("m1"), HasSubstr("not heard"));
@@ -170,7 +170,7 @@ TEST_F(MissionBoardTest, ABusyRobotsMissionsQueueAndEachSaysWhatItWaitsFor) {
   EXPECT_FALSE(HandedOver());
 }
 
-TEST_F(MissionBoardTest, TheNextOneIsHandedOverAtOnceWhenTheOneBeforeHasArrived) {
+TEST_F(MissionRegistryTest, TheNextOneIsHandedOverAtOnceWhenTheOneBeforeHasArrived) {
   Hear(For("m1"));
   Hear(For("m2", "follow yard"));
   RobotIsThere();
@@ -189,7 +189,7 @@ TEST_F(MissionBoardTest, TheNextOneIsHandedOverAtOnceWhenTheOneBeforeHasArrived)
 }
 
 // "follow yard" begins at the yard, where m1 was to end.
-TEST_F(MissionBoardTest, AQueueIsHeldAfterAMissionThatHasNotArrivedUntilItsRobotIsToldToResume) {
+TEST_F(MissionRegistryTest, AQueueIsHeldAfterAMissionThatHasNotArrivedUntilItsRobotIsToldToResume) {
   for (const State end : {State::kFailed, State::kRefused, State::kCancelled}) {
     const std::string id = mission::ToString(end);
     Hear(For(id));
@@ -221,7 +221,7 @@ TEST_F(MissionBoardTest, AQueueIsHeldAfterAMissionThatHasNotArrivedUntilItsRobot
   }
 }
 
-TEST_F(MissionBoardTest, AQueueIsHeldAfterOneThatExpired) {
+TEST_F(MissionRegistryTest, AQueueIsHeldAfterOneThatExpired) {
   Hear(For("m1"));
   Mission later = For("m2", "follow yard");
   later.valid_for_s = 600;
@@ -234,7 +234,7 @@ TEST_F(MissionBoardTest, AQueueIsHeldAfterOneThatExpired) {
   EXPECT_THAT(WaitsFor("m2"), HasSubstr("mission m1 did not arrive (expired)"));
 }
 
-TEST_F(MissionBoardTest, OneThatExpiresHoldsNoneThatCameBeforeIt) {
+TEST_F(MissionRegistryTest, OneThatExpiresHoldsNoneThatCameBeforeIt) {
   Mission first = For("m1");
   first.valid_for_s = 600;
   Hear(first);
@@ -246,7 +246,7 @@ TEST_F(MissionBoardTest, OneThatExpiresHoldsNoneThatCameBeforeIt) {
   EXPECT_EQ(HandedOver()->id, "m1");
 }
 
-TEST_F(MissionBoardTest, WhatARobotTookWithoutThisServerComesFirst) {
+TEST_F(MissionRegistryTest, WhatARobotTookWithoutThisServerComesFirst) {
   RobotIsThere();
   RobotSays("other", 2, State::kUnderWay);
   Hear(For("m1"));
@@ -256,7 +256,7 @@ TEST_F(MissionBoardTest, WhatARobotTookWithoutThisServerComesFirst) {
   EXPECT_EQ(HandedOver()->id, "m1") << "it was sent without regard to that one";
 }
 
-TEST_F(MissionBoardTest, WhatWaitsForARobotThatIsOutOfReachWithAMissionIsKeptForLong) {
+TEST_F(MissionRegistryTest, WhatWaitsForARobotThatIsOutOfReachWithAMissionIsKeptForLong) {
   Hear(For("m1"));
   Hear(For("m2", "follow yard"));
   RobotIsThere();
@@ -276,7 +276,7 @@ TEST_F(MissionBoardTest, WhatWaitsForARobotThatIsOutOfReachWithAMissionIsKeptFor
   EXPECT_EQ(StateOf("m2"), State::kExpired) << "it could have taken that, and was not heard";
 }
 
-TEST_F(MissionBoardTest, SaysAnewWhatItWaitsForAsThatChanges) {
+TEST_F(MissionRegistryTest, SaysAnewWhatItWaitsForAsThatChanges) {
   const auto told = [this] {
     std::string detail;
     for (const exchange::Message& message : Say()) {
@@ -297,7 +297,7 @@ TEST_F(MissionBoardTest, SaysAnewWhatItWaitsForAsThatChanges) {
   EXPECT_TRUE(HandedOver());
 }
 
-TEST_F(MissionBoardTest, AStopHoldsTheQueueOfARobotThatHasNotHeardItUntilItIsToldToResume) {
+TEST_F(MissionRegistryTest, AStopHoldsTheQueueOfARobotThatHasNotHeardItUntilItIsToldToResume) {
   Hear(For("m1"));
   Hear(For("m2", "follow yard"));
   Pass(seconds(1));
@@ -323,7 +323,7 @@ TEST_F(MissionBoardTest, AStopHoldsTheQueueOfARobotThatHasNotHeardItUntilItIsTol
   EXPECT_EQ(HandedOver()->id, "m1");
 }
 
-TEST_F(MissionBoardTest, AHoldEndsWithItsQueue) {
+TEST_F(MissionRegistryTest, AHoldEndsWithItsQueue) {
   Hear(For("m1"));
   Tell(NowOrder::kStop);
   Tell(NowOrder::kCancel);
@@ -334,7 +334,7 @@ TEST_F(MissionBoardTest, AHoldEndsWithItsQueue) {
   EXPECT_EQ(HandedOver()->id, "m2");
 }
 
-TEST_F(MissionBoardTest, ARobotThatIsBackIsToldAtOnce) {
+TEST_F(MissionRegistryTest, ARobotThatIsBackIsToldAtOnce) {
   Hear(For("m1"));
   RobotIsThere();
   ASSERT_TRUE(HandedOver());
@@ -350,7 +350,7 @@ TEST_F(MissionBoardTest, ARobotThatIsBackIsToldAtOnce) {
 }
 
 // A robot that lost its disk knows of neither any more.
-TEST_F(MissionBoardTest, AsksARobotThatIsMetForAllThatItTookToBeUnderWay) {
+TEST_F(MissionRegistryTest, AsksARobotThatIsMetForAllThatItTookToBeUnderWay) {
   RobotIsThere(1);
   for (const char* id : {"m1", "m2"}) {
     Hear(For(id));
@@ -381,12 +381,12 @@ TEST_F(MissionBoardTest, AsksARobotThatIsMetForAllThatItTookToBeUnderWay) {
   EXPECT_EQ(StateOf("m1"), State::kFailed);
   RobotSays("m2", 3, State::kFailed);
   (void)Say();
-  EXPECT_EQ(board_->CurrentOf(AgentId("robot1")), nullptr);
+  EXPECT_EQ(registry_->CurrentOf(AgentId("robot1")), nullptr);
   Pass(seconds(60));
   EXPECT_THAT(asked(), IsEmpty());
 }
 
-TEST_F(MissionBoardTest, DropsWhatItCouldNotHandOverInTime) {
+TEST_F(MissionRegistryTest, DropsWhatItCouldNotHandOverInTime) {
   Hear(For("m1"));
   (void)Say();
   Pass(seconds(61));
@@ -398,7 +398,7 @@ TEST_F(MissionBoardTest, DropsWhatItCouldNotHandOverInTime) {
   EXPECT_EQ(StateOf("m1"), State::kExpired);
 }
 
-TEST_F(MissionBoardTest, AClockThatIsSetMakesNoneExpireNorLast) {
+TEST_F(MissionRegistryTest, AClockThatIsSetMakesNoneExpireNorLast) {
   Hear(For("m1"));
   (void)Say();
   unix_ms_ += 86'400'000;
@@ -411,7 +411,7 @@ TEST_F(MissionBoardTest, AClockThatIsSetMakesNoneExpireNorLast) {
   EXPECT_EQ(dropped->state, State::kExpired);
 }
 
-TEST_F(MissionBoardTest, NoneIsKeptForEverForARobotThatIsNotHeard) {
+TEST_F(MissionRegistryTest, NoneIsKeptForEverForARobotThatIsNotHeard) {
   Mission mission = For("m1");
   mission.valid_for_s = 0;
   Hear(mission);
@@ -423,10 +423,10 @@ TEST_F(MissionBoardTest, NoneIsKeptForEverForARobotThatIsNotHeard) {
   EXPECT_EQ(StateOf("m1"), State::kExpired);
 }
 
-class GoingToPlaces : public MissionBoardTest {
+class GoingToPlaces : public MissionRegistryTest {
  protected:
   void Plan() {
-    board_->PlanBy([this](const AgentId& agent, const std::string& goal) -> Result<bool> {
+    registry_->PlanBy([this](const AgentId& agent, const std::string& goal) -> Result<bool> {
       EXPECT_EQ(agent, AgentId("robot1"));
       goals_.push_back(goal);
       return way_;
@@ -536,7 +536,7 @@ TEST_F(GoingHome, OneThatDoesNotObeyIsSentNowhere) {
   Tell(NowOrder::kHome);
   Answer(true);
   EXPECT_FALSE(HandedOver());
-  EXPECT_EQ(board_->unanswered(), 0U);
+  EXPECT_EQ(registry_->unanswered(), 0U);
 }
 
 TEST_F(GoingHome, OneWhosePlaceIsNotKnownSaysSoInsteadOfGoing) {
@@ -575,12 +575,12 @@ TEST_F(GoingHome, ItGoesBeforeItsQueueAlsoOverARestart) {
   EXPECT_EQ(HandedOver()->id, kHome);
 }
 
-TEST_F(MissionBoardTest, WhatIsCancelledIsNotHandedOverLater) {
+TEST_F(MissionRegistryTest, WhatIsCancelledIsNotHandedOverLater) {
   Hear(For("m1"));
   Tell(NowOrder::kPause, NowWhom::kAll, "");
   Tell(NowOrder::kCancel, NowWhom::kRobot, "robot2");
   Tell(NowOrder::kCancel, NowWhom::kOnRoute, "yard");
-  EXPECT_EQ(board_->unanswered(), 1U);
+  EXPECT_EQ(registry_->unanswered(), 1U);
   Tell(NowOrder::kCancel, NowWhom::kOnRoute, "hall");
   const auto said = Said();
   ASSERT_TRUE(said);
@@ -588,12 +588,12 @@ TEST_F(MissionBoardTest, WhatIsCancelledIsNotHandedOverLater) {
   EXPECT_THAT(said->detail, HasSubstr("desk told it to cancel"));
   Hear(For("m2"));
   Tell(NowOrder::kCancel, NowWhom::kAll, "");
-  EXPECT_EQ(board_->unanswered(), 0U);
+  EXPECT_EQ(registry_->unanswered(), 0U);
   RobotIsThere();
   EXPECT_FALSE(HandedOver());
 }
 
-TEST_F(MissionBoardTest, KeepsWhoToldRobotsWhatAndWhatTheyAnswered) {
+TEST_F(MissionRegistryTest, KeepsWhoToldRobotsWhatAndWhatTheyAnswered) {
   exchange::NowCommand stop{.client = AgentId("desk-p9"), .number = 77};
   exchange::NowAnswer answer{
       .agent = AgentId("robot1"), .client = stop.client, .number = 77, .detail = "stands"};
@@ -613,7 +613,7 @@ TEST_F(MissionBoardTest, KeepsWhoToldRobotsWhatAndWhatTheyAnswered) {
   EXPECT_EQ(reply.commands[0].answers[0].detail, "stands");
 }
 
-TEST_F(MissionBoardTest, TellsWhetherItHasHeardARobotAndElseWhichOthers) {
+TEST_F(MissionRegistryTest, TellsWhetherItHasHeardARobotAndElseWhichOthers) {
   const auto heard = [&](const std::string& robot) {
     Hear(exchange::MissionRequest{
         .client = AgentId("desk"), .request = 8, .query = {.agent = robot}});
@@ -630,23 +630,23 @@ TEST_F(MissionBoardTest, TellsWhetherItHasHeardARobotAndElseWhichOthers) {
   EXPECT_THAT(heard("robot1"), ElementsAre("robot1")) << "it is out of reach";
 }
 
-TEST_F(MissionBoardTest, RefusesOrdersThatNobodyUnderstands) {
+TEST_F(MissionRegistryTest, RefusesOrdersThatNobodyUnderstands) {
   Hear(For("m1", "dance"));
   const auto said = Said();
   ASSERT_TRUE(said);
   EXPECT_EQ(said->state, State::kRefused);
   EXPECT_THAT(said->detail, HasSubstr("'dance'"));
-  EXPECT_EQ(board_->unanswered(), 0U);
+  EXPECT_EQ(registry_->unanswered(), 0U);
 }
 
-TEST_F(MissionBoardTest, PutsOffWhatItCannotStoreAndKeepsItOnceItCan) {
+TEST_F(MissionRegistryTest, PutsOffWhatItCannotStoreAndKeepsItOnceItCan) {
   std::vector<Mission> missions;
   for (int i = 0; i < store::MissionStore::kMostUnansweredOfClient; ++i) {
     missions.push_back(For("m" + std::to_string(i)));
   }
-  board_->Take(missions, now_, unix_ms_);
+  registry_->Take(missions, now_, unix_ms_);
   (void)Say();
-  (void)board_->TakeNotes();
+  (void)registry_->TakeNotes();
   for (int i = 0; i < 3; ++i) {
     Hear(For("more"));
     const auto said = Said();
@@ -655,31 +655,31 @@ TEST_F(MissionBoardTest, PutsOffWhatItCannotStoreAndKeepsItOnceItCan) {
     EXPECT_TRUE(said->relayed);
     EXPECT_THAT(said->detail, HasSubstr("missions of 'desk-p7' wait"));
   }
-  EXPECT_THAT(board_->TakeNotes(), SizeIs(1)) << "the log has it once";
+  EXPECT_THAT(registry_->TakeNotes(), SizeIs(1)) << "the log has it once";
   RobotSays("m0", 1, State::kAccepted);
   (void)Say();
   Hear(For("more"));
   EXPECT_EQ(Said()->state, State::kSent);
 }
 
-TEST_F(MissionBoardTest, MissionsThatComeTogetherAreOneCommitAndSoIsTheirEnd) {
+TEST_F(MissionRegistryTest, MissionsThatComeTogetherAreOneCommitAndSoIsTheirEnd) {
   const std::filesystem::path log = folder_ / "missions-wal";
   constexpr std::uintmax_t kPage = 4096;
   constexpr std::uintmax_t kMissions = 200;  // a commit writes three pages, each once
   std::vector<Mission> missions;
   for (std::uintmax_t i = 0; i < kMissions; ++i) missions.push_back(For("m" + std::to_string(i)));
   const auto before = std::filesystem::file_size(log);
-  board_->Take(missions, now_, unix_ms_);
+  registry_->Take(missions, now_, unix_ms_);
   EXPECT_THAT(Say(), SizeIs(kMissions));
   const auto stored = std::filesystem::file_size(log);
   EXPECT_LT(stored - before, kMissions * kPage / 2);
   Tell(NowOrder::kCancel, NowWhom::kAll, "");
   EXPECT_THAT(Say(), SizeIs(kMissions)) << "cancelled, each";
   EXPECT_LT(std::filesystem::file_size(log) - stored, kMissions * kPage / 2);
-  EXPECT_EQ(board_->unanswered(), 0U);
+  EXPECT_EQ(registry_->unanswered(), 0U);
 }
 
-TEST_F(MissionBoardTest, RefusesOtherOrdersUnderTheSameName) {
+TEST_F(MissionRegistryTest, RefusesOtherOrdersUnderTheSameName) {
   Hear(For("m1"));
   (void)Say();
   Hear(For("m1", "follow yard"));
@@ -690,7 +690,7 @@ TEST_F(MissionBoardTest, RefusesOtherOrdersUnderTheSameName) {
   EXPECT_EQ(StateOf("m1"), State::kSent) << "the first is as it was";
 }
 
-TEST_F(MissionBoardTest, LeavesToOtherServersWhatTheyPassOn) {
+TEST_F(MissionRegistryTest, LeavesToOtherServersWhatTheyPassOn) {
   Mission relayed = For("m1");
   relayed.relayed = true;
   Hear(relayed);
@@ -698,20 +698,20 @@ TEST_F(MissionBoardTest, LeavesToOtherServersWhatTheyPassOn) {
   EXPECT_THAT(Say(), IsEmpty());
 }
 
-TEST_F(MissionBoardTest, TellsOfAnotherWayAgainAndAgainUntilTheMissionHasEnded) {
+TEST_F(MissionRegistryTest, TellsOfAnotherWayAgainAndAgainUntilTheMissionHasEnded) {
   const std::string first = "goto bay follow hall 0..2";
   const std::string other = "goto bay way 2 follow hall 0..1 follow yard 0..3 because it was so";
-  EXPECT_FALSE(board_->Amend(AgentId("robot1"), other)) << "of nothing";
+  EXPECT_FALSE(registry_->Amend(AgentId("robot1"), other)) << "of nothing";
   Hear(For("m1", first));
   RobotIsThere();
-  EXPECT_THAT(board_->AtWork(), IsEmpty()) << "it has not answered";
+  EXPECT_THAT(registry_->AtWork(), IsEmpty()) << "it has not answered";
   RobotSays("m1", 1, State::kAccepted);
   (void)Say();
-  ASSERT_THAT(board_->AtWork(), SizeIs(1));
-  EXPECT_EQ(board_->CurrentOf(AgentId("robot1"))->last.state, State::kAccepted);
+  ASSERT_THAT(registry_->AtWork(), SizeIs(1));
+  EXPECT_EQ(registry_->CurrentOf(AgentId("robot1"))->last.state, State::kAccepted);
   Pass(seconds(5));
   EXPECT_FALSE(HandedOver()) << "it goes the way that it was sent";
-  ASSERT_TRUE(board_->Amend(AgentId("robot1"), other));
+  ASSERT_TRUE(registry_->Amend(AgentId("robot1"), other));
   for (int i = 0; i < 2; ++i) {
     const auto told = HandedOver();
     ASSERT_TRUE(told);
@@ -733,7 +733,7 @@ TEST_F(MissionBoardTest, TellsOfAnotherWayAgainAndAgainUntilTheMissionHasEnded) 
   RobotSays("m1", 2, State::kArrived);
   Pass(seconds(5));
   EXPECT_FALSE(HandedOver());
-  EXPECT_EQ(board_->CurrentOf(AgentId("robot1")), nullptr);
+  EXPECT_EQ(registry_->CurrentOf(AgentId("robot1")), nullptr);
 }
 
 }  // namespace

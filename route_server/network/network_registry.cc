@@ -1,4 +1,4 @@
-#include "route_server/network/network_board.h"
+#include "route_server/network/network_registry.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,7 +27,7 @@ using network::NamedPlace;
 using network::Place;
 using Lines = std::vector<std::string>;
 
-bool IsNear(double a_m, double b_m) { return std::abs(a_m - b_m) <= NetworkBoard::kSame_m; }
+bool IsNear(double a_m, double b_m) { return std::abs(a_m - b_m) <= NetworkRegistry::kSame_m; }
 
 bool IsNear(const Place& a, const Place& b) {
   return a.route == b.route && IsNear(a.along_m, b.along_m);
@@ -80,37 +80,36 @@ std::vector<std::string> DoneText(const Edit& edit, const std::string& words, co
 
 }  // namespace
 
-Result<std::unique_ptr<NetworkBoard>> NetworkBoard::Open(AgentId server,
-                                                         std::unique_ptr<store::NetworkStore> store,
-                                                         store::RouteStore& routes) {
-  std::unique_ptr<NetworkBoard> board(
-      new NetworkBoard(std::move(server), std::move(store), routes));
-  auto junctions = board->store_->Junctions();
+Result<std::unique_ptr<NetworkRegistry>> NetworkRegistry::Open(
+    AgentId server, std::unique_ptr<store::NetworkStore> store, store::RouteStore& routes) {
+  std::unique_ptr<NetworkRegistry> registry(
+      new NetworkRegistry(std::move(server), std::move(store), routes));
+  auto junctions = registry->store_->Junctions();
   if (!junctions) return tl::unexpected(junctions.error());
-  auto conditions = board->store_->Conditions();
+  auto conditions = registry->store_->Conditions();
   if (!conditions) return tl::unexpected(conditions.error());
-  auto names = board->store_->Names();
+  auto names = registry->store_->Names();
   if (!names) return tl::unexpected(names.error());
-  for (NamedPlace& named : *names) board->named_.emplace(named.name, std::move(named));
-  auto proposed = board->store_->Proposals();
+  for (NamedPlace& named : *names) registry->named_.emplace(named.name, std::move(named));
+  auto proposed = registry->store_->Proposals();
   if (!proposed) return tl::unexpected(proposed.error());
-  auto searched = board->store_->Searched();
+  auto searched = registry->store_->Searched();
   if (!searched) return tl::unexpected(searched.error());
-  auto lanes = board->store_->Lanes();
+  auto lanes = registry->store_->Lanes();
   if (!lanes) return tl::unexpected(lanes.error());
-  const auto followed = board->store_->Followed();
+  const auto followed = registry->store_->Followed();
   if (!followed) return tl::unexpected(followed.error());
-  board->followed_.Load(*followed);
-  board->lanes_ = *std::move(lanes);
-  board->proposed_ = *std::move(proposed);
-  board->searched_.insert(searched->begin(), searched->end());
-  board->junctions_ = *std::move(junctions);
-  board->conditions_ = *std::move(conditions);
-  return board;
+  registry->followed_.Load(*followed);
+  registry->lanes_ = *std::move(lanes);
+  registry->proposed_ = *std::move(proposed);
+  registry->searched_.insert(searched->begin(), searched->end());
+  registry->junctions_ = *std::move(junctions);
+  registry->conditions_ = *std::move(conditions);
+  return registry;
 }
 
-exchange::NetworkReply NetworkBoard::Change(const exchange::NetworkEdit& edit,
-                                            std::int64_t now_unix_ms) {
+exchange::NetworkReply NetworkRegistry::Change(const exchange::NetworkEdit& edit,
+                                               std::int64_t now_unix_ms) {
   auto& answered = answered_.Touch({edit.client, edit.request});
   if (answered) return *answered;
   exchange::NetworkReply reply{.server = server_, .client = edit.client, .request = edit.request};
@@ -133,7 +132,7 @@ exchange::NetworkReply NetworkBoard::Change(const exchange::NetworkEdit& edit,
   return reply;
 }
 
-exchange::NetworkReply NetworkBoard::Answer(const exchange::NetworkRequest& request) {
+exchange::NetworkReply NetworkRegistry::Answer(const exchange::NetworkRequest& request) {
   exchange::NetworkReply reply{
       .server = server_, .client = request.client, .request = request.request};
   const auto lines = Answered(request.words);
@@ -149,7 +148,7 @@ exchange::NetworkReply NetworkBoard::Answer(const exchange::NetworkRequest& requ
   return reply;
 }
 
-Result<Lines> NetworkBoard::Answered(const std::string& words) {
+Result<Lines> NetworkRegistry::Answered(const std::string& words) {
   if (words.empty()) return All();
   if (const auto goal = network::ParseWhatPasses(words)) {
     return network::ParseGoal(*goal).and_then([&](const Goal& at) { return WhatPasses(at); });
@@ -158,7 +157,7 @@ Result<Lines> NetworkBoard::Answered(const std::string& words) {
       [&](const network::Question& question) { return WayTo(question); });
 }
 
-void NetworkBoard::Hear(const exchange::AgentStatus& status) {
+void NetworkRegistry::Hear(const exchange::AgentStatus& status) {
   if (status.role != exchange::AgentRole::kFollower) return;
   if (status.place) {
     places_.Touch(status.agent) = {
@@ -168,7 +167,7 @@ void NetworkBoard::Hear(const exchange::AgentStatus& status) {
   }
 }
 
-void NetworkBoard::Note(const route::RouteInfo& info) {
+void NetworkRegistry::Note(const route::RouteInfo& info) {
   if (info.standing == route::Standing::kDeleted) DropProposals(info.key);
   const auto at = known_.find(info.key.route);
   if (at == known_.end()) {
@@ -184,8 +183,8 @@ void NetworkBoard::Note(const route::RouteInfo& info) {
   NoteChange();
 }
 
-Result<Lines> NetworkBoard::Carry(const Edit& edit, const std::string& by,
-                                  std::int64_t now_unix_ms) {
+Result<Lines> NetworkRegistry::Carry(const Edit& edit, const std::string& by,
+                                     std::int64_t now_unix_ms) {
   switch (edit.kind) {
     case Edit::Kind::kJoin:
       return Join(edit.junction, by, now_unix_ms);
@@ -210,8 +209,8 @@ Result<Lines> NetworkBoard::Carry(const Edit& edit, const std::string& by,
   }
 }
 
-Result<Lines> NetworkBoard::Join(Junction junction, const std::string& by,
-                                 std::int64_t now_unix_ms) {
+Result<Lines> NetworkRegistry::Join(Junction junction, const std::string& by,
+                                    std::int64_t now_unix_ms) {
   for (Place* place : {&junction.from, &junction.to}) {
     auto resolved = Resolve(*place);
     if (!resolved) return tl::unexpected(resolved.error());
@@ -238,7 +237,7 @@ Result<Lines> NetworkBoard::Join(Junction junction, const std::string& by,
   return Lines{network::ToText(*called)};
 }
 
-Result<Lines> NetworkBoard::Part(const Junction& junction) {
+Result<Lines> NetworkRegistry::Part(const Junction& junction) {
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
   // Routes that were deleted are known only by their name in the list.
   const auto from = Resolve(junction.from);
@@ -268,7 +267,7 @@ Result<Lines> NetworkBoard::Part(const Junction& junction) {
   return lines;
 }
 
-Result<Lines> NetworkBoard::Set(Edit edit, const std::string& by, std::int64_t now_unix_ms) {
+Result<Lines> NetworkRegistry::Set(Edit edit, const std::string& by, std::int64_t now_unix_ms) {
   Condition& condition = edit.condition;
   const auto meant = Meant(condition.route);
   if (!meant) return tl::unexpected(meant.error());
@@ -295,8 +294,8 @@ Result<Lines> NetworkBoard::Set(Edit edit, const std::string& by, std::int64_t n
   return lines;
 }
 
-Result<Lines> NetworkBoard::Name(NamedPlace named, const std::string& by,
-                                 std::int64_t now_unix_ms) {
+Result<Lines> NetworkRegistry::Name(NamedPlace named, const std::string& by,
+                                    std::int64_t now_unix_ms) {
   auto place = Resolve(named.place);
   if (!place) return tl::unexpected(place.error());
   named.place = *std::move(place);
@@ -309,7 +308,7 @@ Result<Lines> NetworkBoard::Name(NamedPlace named, const std::string& by,
   return Lines{network::ToText(*called)};
 }
 
-Result<Lines> NetworkBoard::Forget(const std::string& name) {
+Result<Lines> NetworkRegistry::Forget(const std::string& name) {
   const auto at = named_.find(name);
   if (at == named_.end()) return Fail(ErrorCode::kNotFound, "no place is called '{}'", name);
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
@@ -321,7 +320,7 @@ Result<Lines> NetworkBoard::Forget(const std::string& name) {
   return Lines{network::ToText(*called)};
 }
 
-Result<Lines> NetworkBoard::All() {
+Result<Lines> NetworkRegistry::All() {
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
   Lines lines;
   for (const auto& [id, known] : known_) {
@@ -363,8 +362,8 @@ Result<Lines> NetworkBoard::All() {
 }
 
 template <typename Find>
-Result<network::Way> NetworkBoard::NearestOf(const std::vector<Place>& places,
-                                             const Find& find) const {
+Result<network::Way> NetworkRegistry::NearestOf(const std::vector<Place>& places,
+                                                const Find& find) const {
   std::optional<Result<network::Way>> nearest;
   for (const Place& to : places) {
     if (places.size() > 1 && !IsUsed(to)) continue;
@@ -376,7 +375,7 @@ Result<network::Way> NetworkBoard::NearestOf(const std::vector<Place>& places,
   return Fail(ErrorCode::kNotFound, "all homes are on revisions that robots do not follow");
 }
 
-Result<Lines> NetworkBoard::WayTo(const network::Question& question) {
+Result<Lines> NetworkRegistry::WayTo(const network::Question& question) {
   const auto to = PlacesOf(question.to);
   if (!to) return tl::unexpected(to.error());
   const std::string& robot = question.from.name;
@@ -411,7 +410,7 @@ Result<Lines> NetworkBoard::WayTo(const network::Question& question) {
   return lines;
 }
 
-mission::Task NetworkBoard::TaskOf(const network::Section& section) const {
+mission::Task NetworkRegistry::TaskOf(const network::Section& section) const {
   return {.route = {.route = Called(KeyOf(section.route).route)},
           .from_m = ToCentimetre(section.from_m),
           .to_m = ToCentimetre(section.to_m),
@@ -419,8 +418,8 @@ mission::Task NetworkBoard::TaskOf(const network::Section& section) const {
           .speed_factor = section.speed};
 }
 
-Result<network::Section> NetworkBoard::SectionOf(std::span<const mission::Task> tasks,
-                                                 std::size_t number) {
+Result<network::Section> NetworkRegistry::SectionOf(std::span<const mission::Task> tasks,
+                                                    std::size_t number) {
   const mission::Task& task = tasks[number];
   const auto& [name, revision] = task.route;
   const auto meant = Meant(revision == 0 ? name : fmt::format("{}@{}", name, revision));
@@ -435,23 +434,23 @@ Result<network::Section> NetworkBoard::SectionOf(std::span<const mission::Task> 
   return section;
 }
 
-Result<std::optional<Condition>> NetworkBoard::FirstClosed(const network::Section& section) {
+Result<std::optional<Condition>> NetworkRegistry::FirstClosed(const network::Section& section) {
   if (auto known = Know({KeyOf(section.route).route}); !known) return tl::unexpected(known.error());
   return network_->FirstClosed(section);
 }
 
-Result<std::optional<Condition>> NetworkBoard::ClosedAround(const Place& place) {
+Result<std::optional<Condition>> NetworkRegistry::ClosedAround(const Place& place) {
   if (auto known = Know({KeyOf(place.route).route}); !known) return tl::unexpected(known.error());
   return network_->ClosedAround(place);
 }
 
-std::string NetworkBoard::Called(const Condition& closed) const {
+std::string NetworkRegistry::Called(const Condition& closed) const {
   return fmt::format("{} {:g}..{:g}", Called(KeyOf(closed.route).route),
                      ToCentimetre(closed.from_m), ToCentimetre(closed.to_m));
 }
 
-Result<std::vector<network::Section>> NetworkBoard::WayOn(const Place& from,
-                                                          const std::string& goal) {
+Result<std::vector<network::Section>> NetworkRegistry::WayOn(const Place& from,
+                                                             const std::string& goal) {
   const auto parsed = network::ParseGoal(goal);
   if (!parsed) return tl::unexpected(parsed.error());
   const auto to = PlacesOf(*parsed);
@@ -467,7 +466,7 @@ Result<std::vector<network::Section>> NetworkBoard::WayOn(const Place& from,
   return std::move(way->sections);
 }
 
-void NetworkBoard::NoteChange() {
+void NetworkRegistry::NoteChange() {
   network_.reset();
   ++changes_;
 }
