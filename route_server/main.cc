@@ -41,10 +41,10 @@ struct HttpOptions {
 
 struct StoreOptions {
   std::string location;
-  std::string missions;  // if empty, it is beside the location, provided that is a file
-  std::string joints;    // likewise
-  std::string history;   // likewise
-  bool joints_auto = false;
+  std::string missions;   // if empty, it is beside the location, provided that is a file
+  std::string junctions;  // likewise
+  std::string history;    // likewise
+  bool junctions_auto = false;
   std::uint64_t limit_mb = 0;
   std::uint64_t quota_mb = 0;  // for each scout
   std::uint32_t keep_revisions = 0;
@@ -71,11 +71,11 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
                  "the store's name with '.missions' behind it; with PostgreSQL, each server's own: "
                  "without one, it keeps no missions")
       ->envname("TRAILCAST_MISSIONS");
-  app.add_option("--joints", options.joints,
+  app.add_option("--junctions", options.junctions,
                  "SQLite file that holds how routes are joined, created if missing; default: the "
                  "store's name with '.joints' behind it; with PostgreSQL, each server's own: "
                  "without one, it keeps no network of routes")
-      ->envname("TRAILCAST_JOINTS");
+      ->envname("TRAILCAST_JUNCTIONS");
   app.add_option(
          "--history", options.history,
          "SQLite file that holds what was changed of routes and of how they are joined, and "
@@ -83,10 +83,10 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
          "with PostgreSQL, each server's own: without one, it keeps no history")
       ->envname("TRAILCAST_HISTORY");
   app.add_flag(
-         "--joints-auto", options.joints_auto,
+         "--junctions-auto", options.junctions_auto,
          "Make junctions of the places where the server is sure, at 0.9 or more, that routes meet; "
          "without, they are proposed, and 'trailcast network confirm' makes them")
-      ->envname("TRAILCAST_JOINTS_AUTO");
+      ->envname("TRAILCAST_JUNCTIONS_AUTO");
   app.add_option("--keep-revisions", options.keep_revisions,
                  "How many complete revisions of a route to keep, the newest, besides the active "
                  "one; older ones are deleted; 0: all")
@@ -213,10 +213,10 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const Store
   using trailcast::server::Server;
   Keep(OwnFile(options, options.missions, ".missions"), "missions", **server,
        &Server::KeepMissions);
-  Keep(OwnFile(options, options.joints, ".joints"), "network of routes", **server,
+  Keep(OwnFile(options, options.junctions, ".joints"), "network of routes", **server,
        &Server::KeepNetwork);
   Keep(OwnFile(options, options.history, ".history"), "history", **server, &Server::KeepHistory);
-  if (options.joints_auto) (*server)->TakeSureJoints();
+  if (options.junctions_auto) (*server)->TakeSureJunctions();
   if (auto retains = Retain(options, **server); !retains) {
     return program::Complain(app, retains.error());
   }

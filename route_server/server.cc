@@ -112,18 +112,18 @@ void Server::WaitForNetwork(const std::function<bool()>& stop) {
 }
 
 Result<void> Server::KeepMissions(std::unique_ptr<store::MissionStore> store) {
-  auto board = MissionBoard::Open(presence_.status().agent, std::move(store));
-  if (!board) return tl::unexpected(board.error());
-  missions_ = std::move(*board);
+  auto registry = MissionRegistry::Open(presence_.status().agent, std::move(store));
+  if (!registry) return tl::unexpected(registry.error());
+  missions_ = std::move(*registry);
   KeepWays();
   return {};
 }
 
 Result<void> Server::KeepNetwork(std::unique_ptr<store::NetworkStore> store) {
-  auto board = NetworkBoard::Open(presence_.status().agent, std::move(store), *store_);
-  if (!board) return tl::unexpected(board.error());
-  network_ = std::move(*board);
-  joints_ = std::make_unique<JointDesk>(
+  auto registry = NetworkRegistry::Open(presence_.status().agent, std::move(store), *store_);
+  if (!registry) return tl::unexpected(registry.error());
+  network_ = std::move(*registry);
+  junctions_ = std::make_unique<JunctionFinder>(
       *store_, views_, [this](const route::RouteKey& key) { return network_->WasSearched(key); });
   KeepWays();
   return {};
@@ -180,7 +180,7 @@ void Server::Receive(exchange::Message message) {
     if (network_) network_->Hear(*status);
     Replan(status->agent);
   }
-  if (const auto* followed = std::get_if<exchange::FollowedStretches>(&message);
+  if (const auto* followed = std::get_if<exchange::FollowedSections>(&message);
       followed != nullptr && network_) {
     network_->followed().Hear(*followed, NowUnixMs());
   }
@@ -231,7 +231,7 @@ void Server::Serve() {
   TellTroubles();
   NoteAnnounced(outgoing);
   FillViews(outgoing);
-  KeepLookingForJoints(now);
+  KeepLookingForJunctions(now);
   LookAtRefreshed();
   if (now >= keeping_due_ && upkeep_->store_trouble().empty()) {
     keeping_due_ = now + kKeepingEvery;
@@ -254,9 +254,9 @@ milliseconds Server::WaitForMessages() const {
   const bool more = !requests_.empty() || keeper_->AnswersDue(steady_clock::now());
   if (views_due || more) return milliseconds(0);
   const milliseconds wait = keeper_->answering() ? kWaitAnswering : kWait;
-  const auto joints_due = joints_ ? joints_->due() : std::nullopt;
-  if (!joints_due) return wait;
-  return std::clamp(std::chrono::ceil<milliseconds>(*joints_due - steady_clock::now()),
+  const auto junctions_due = junctions_ ? junctions_->due() : std::nullopt;
+  if (!junctions_due) return wait;
+  return std::clamp(std::chrono::ceil<milliseconds>(*junctions_due - steady_clock::now()),
                     milliseconds(0), wait);
 }
 
@@ -312,7 +312,7 @@ void Server::TellMissions() {
   if (!missions_) return;
   // Anything that cannot be sent is requested, or sent, again.
   (void)exchange::PublishAll(*exchange_, missions_->Tick(steady_clock::now(), NowUnixMs()));
-  for (const MissionBoard::Note& note : missions_->TakeNotes()) {
+  for (const MissionRegistry::Note& note : missions_->TakeNotes()) {
     spdlog::log(note.warning ? spdlog::level::warn : spdlog::level::info, "{}", note.text);
   }
 }
@@ -324,7 +324,7 @@ void Server::FillViews(const std::vector<exchange::Message>& outgoing) {
       spdlog::warn("left out of the index of views: {}", added.error().message);
     }
     upkeep_->NoteStored(piece.key, piece.index);
-    if (joints_) joints_->NoteStored(piece.key, piece.index);
+    if (junctions_) junctions_->NoteStored(piece.key, piece.index);
   }
   for (const auto& [key, segment] : keeper_->TakeDamaged()) upkeep_->NoteDamaged(key, segment);
   for (const exchange::Message& message : outgoing) {
@@ -407,7 +407,7 @@ void Server::ShowMetricsIfDue(steady_clock::time_point now) {
     metrics_.mirror.same += other.there && !other.differs_since ? 1U : 0U;
   }
   metrics_.network_joins = network_state_->joins;
-  if (network_) metrics_.joints.open = network_->open_proposals();
+  if (network_) metrics_.junctions.open = network_->open_proposals();
   page_->Show({metrics_.Text(), Trouble(), Degraded()});
 }
 

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "route_server/fleet/fleet_news.h"
-#include "route_server/fleet/mission_board.h"
+#include "route_server/fleet/mission_registry.h"
 #include "route_server/fleet/route_followers.h"
-#include "route_server/joints/joint_desk.h"
-#include "route_server/network/lane_keeper.h"
-#include "route_server/network/network_board.h"
+#include "route_server/junctions/junction_finder.h"
+#include "route_server/network/network_registry.h"
 #include "route_server/network/replanning.h"
+#include "route_server/network/zone_admission.h"
 #include "route_server/routes/history.h"
 #include "route_server/routes/holders.h"
 #include "route_server/routes/mirror_watch.h"
@@ -58,7 +58,7 @@ class Server {
   // Keeps the changes of both likewise.
   [[nodiscard]] Result<void> KeepHistory(std::unique_ptr<store::HistoryStore> store);
   // Turns sure proposals into junctions without asking an operator.
-  void TakeSureJoints() { takes_sure_joints_ = true; }
+  void TakeSureJunctions() { takes_sure_junctions_ = true; }
   // Watches the state of the exchange's network from now on. Without it, the network is assumed to
   // be up.
   void Mind(std::shared_ptr<const exchange::NetworkState> network) {
@@ -111,7 +111,7 @@ class Server {
   void NoteMade();
   void AnswerHistory(const exchange::NetworkRequest& request, std::int64_t since_unix_ms);
   void NoteOfNetwork(const route::RouteInfo& info);
-  void KeepLookingForJoints(std::chrono::steady_clock::time_point now);
+  void KeepLookingForJunctions(std::chrono::steady_clock::time_point now);
   void LookAtRefreshed();
   void KeepWhatIsLearnt();
   void Propose(const Meeting& meeting);
@@ -141,18 +141,18 @@ class Server {
   RequestQueue requests_;
   std::vector<exchange::Message> replies_;  // to requests that the keeper does not answer
   FleetNews fleet_;
-  RouteFollowersBoard followers_;
-  std::unique_ptr<MissionBoard> missions_;  // null if it keeps none
-  std::unique_ptr<NetworkBoard> network_;   // likewise
-  std::unique_ptr<JointDesk> joints_;       // for that
-  bool takes_sure_joints_ = false;
+  FollowerRegistry followers_;
+  std::unique_ptr<MissionRegistry> missions_;  // null if it keeps none
+  std::unique_ptr<NetworkRegistry> network_;   // likewise
+  std::unique_ptr<JunctionFinder> junctions_;  // for that
+  bool takes_sure_junctions_ = false;
   RefreshWatch refreshes_;
   std::uint64_t refresh_request_;                        // of the server's own next edit
   std::unique_ptr<History> history_;                     // null if it keeps none
   std::vector<route::RouteKey> planned_;                 // to be changed
   std::chrono::steady_clock::time_point keeping_due_{};  // for what is learnt of the network
   std::optional<Replanning> replanning_;                 // with missions and network
-  std::optional<LaneKeeper> lanes_;                      // likewise
+  std::optional<ZoneAdmission> lanes_;                   // likewise
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store
   Metrics metrics_;

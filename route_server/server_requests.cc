@@ -122,7 +122,7 @@ void Server::Serve(const exchange::Message& request) {
   } else if (!network_) {
     replies_.push_back(
         Refusal(request, presence_.status().agent,
-                "keeps no network of routes: its log says why, or it was given no --joints"));
+                "keeps no network of routes: its log says why, or it was given no --junctions"));
   } else if (question != nullptr) {
     replies_.emplace_back(network_->Answer(*question));
   } else {

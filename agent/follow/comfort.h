@@ -23,7 +23,7 @@ class Comfort {
   [[nodiscard]] ReplayStep Apply(ReplayStep step) const;
 
  private:
-  struct Stretch {
+  struct Section {
     double begin_m = 0.0;
     double length_m = 0.0;
     double speed_mps = 0.0;  // the most; 0 for a segment without odometry
@@ -32,7 +32,7 @@ class Comfort {
   [[nodiscard]] double MostMps(double along_m, double speed_mps, std::size_t segment) const;
 
   bool wanted_;
-  std::vector<Stretch> stretches_;
+  std::vector<Section> sections_;
 };
 
 }  // namespace trailcast::agent

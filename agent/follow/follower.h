@@ -58,7 +58,7 @@ struct ReplayOutcome {
   bool success = false;  // it arrived; or a recording was replayed to its end and the robot was not
                          // lost there
   RunEnd end = RunEnd::kFailed;
-  std::string state;           // for people: ARRIVED, LOST, STUCK, REFUSED, WAITING, ...
+  std::string state;           // `end` in reports and logs: ARRIVED, LOST, STUCK, REFUSED, ...
   std::string reason;          // one line for people
   std::optional<Error> error;  // why the camera, base, store or network failed; the rest tells what
                                // was done until then

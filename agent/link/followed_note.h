@@ -13,7 +13,7 @@
 
 namespace trailcast::agent {
 
-// Counts how a robot has followed each section of its routes (exchange::kFollowedStretch_m) until
+// Counts how a robot has followed each section of its routes (exchange::kFollowedSection_m) until
 // servers are told: how often it passed the section, and how often it lost its path there, whether
 // or not it found it again.
 //
@@ -26,7 +26,7 @@ class FollowedNote {
   // A robot that is so much further back has come again.
   static constexpr double kBack_m = 1.0;
   // The bound while nobody hears it: 20 km of routes. The sections that were driven last are kept.
-  static constexpr std::size_t kMostStretches = 4096;
+  static constexpr std::size_t kMostSections = 4096;
 
   explicit FollowedNote(AgentId agent) : agent_(std::move(agent)) {}
 
@@ -60,7 +60,7 @@ class FollowedNote {
   AgentId agent_;
   std::optional<Visit> visit_;
   bool on_path_ = false;  // it was sure of its path, and has not lost it since
-  NewestMap<Where, Count> counts_{kMostStretches};
+  NewestMap<Where, Count> counts_{kMostSections};
   Clock::time_point due_{};
 };
 

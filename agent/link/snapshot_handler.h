@@ -41,11 +41,11 @@ class SnapshotHandler {
   // Says whether the requested picture did not come within kPatience.
   [[nodiscard]] bool AskedInVain(Time now) const;
   // Returns the picture as a message to publish, or nothing if nobody waits for it.
-  [[nodiscard]] std::optional<exchange::Glance> Give(CameraPicture picture, Time now);
+  [[nodiscard]] std::optional<exchange::Snapshot> Give(CameraPicture picture, Time now);
 
  private:
   struct Waiting {
-    exchange::GlanceRequest request;
+    exchange::SnapshotRequest request;
     Time since{};
   };
   void Forget(Time now);

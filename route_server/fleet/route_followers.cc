@@ -8,7 +8,7 @@
 
 namespace trailcast::server {
 
-void RouteFollowersBoard::Handle(const exchange::Message& message, Time now) {
+void FollowerRegistry::Handle(const exchange::Message& message, Time now) {
   if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
     if (status->role == exchange::AgentRole::kFollower) Hear(*status, now);
   } else if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) {
@@ -19,7 +19,7 @@ void RouteFollowersBoard::Handle(const exchange::Message& message, Time now) {
   }
 }
 
-void RouteFollowersBoard::Hear(const exchange::AgentStatus& status, Time now) {
+void FollowerRegistry::Hear(const exchange::AgentStatus& status, Time now) {
   const auto on = on_.find(status.agent);
   const bool known = on != on_.end();
   if (status.mode == exchange::AgentMode::kArrived) {
@@ -36,7 +36,7 @@ void RouteFollowersBoard::Hear(const exchange::AgentStatus& status, Time now) {
   if (joins) route.due = next_ = now;
 }
 
-void RouteFollowersBoard::Remove(const AgentId& agent, Time now) {
+void FollowerRegistry::Remove(const AgentId& agent, Time now) {
   const auto on = on_.find(agent);
   const auto route = routes_.find(on->second);
   on_.erase(on);
@@ -49,7 +49,7 @@ void RouteFollowersBoard::Remove(const AgentId& agent, Time now) {
   }
 }
 
-std::vector<exchange::RouteFollowers> RouteFollowersBoard::Due(Time now) {
+std::vector<exchange::RouteFollowers> FollowerRegistry::Due(Time now) {
   std::vector<exchange::RouteFollowers> due;
   if (now < next_) return due;
   next_ = now + kAloneEvery;
@@ -72,8 +72,8 @@ std::vector<exchange::RouteFollowers> RouteFollowersBoard::Due(Time now) {
   return due;
 }
 
-exchange::RouteFollowers RouteFollowersBoard::Tell(const route::RouteKey& key, Route& route,
-                                                   Time now) {
+exchange::RouteFollowers FollowerRegistry::Tell(const route::RouteKey& key, Route& route,
+                                                Time now) {
   using std::chrono::milliseconds;
   exchange::RouteFollowers told{.server = server_, .key = key, .followers = {}};
   for (const auto& [agent, known] : route.followers) {

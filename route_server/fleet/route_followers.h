@@ -14,7 +14,7 @@ namespace trailcast::server {
 // A robot that arrived has made room. One that ended anywhere else, or is no longer heard, is taken
 // to stand at its last place for kRemembered, or until it reports another one. It has no clock and
 // no I/O.
-class RouteFollowersBoard {
+class FollowerRegistry {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::seconds kRemembered{60};
@@ -26,7 +26,7 @@ class RouteFollowersBoard {
   static constexpr std::chrono::seconds kAloneEvery{1};
   static constexpr std::chrono::seconds kAlone{10};
 
-  explicit RouteFollowersBoard(AgentId server) : server_(std::move(server)) {}
+  explicit FollowerRegistry(AgentId server) : server_(std::move(server)) {}
 
   void Handle(const exchange::Message& message, Time now);
   // Returns what is to be published now.

@@ -17,17 +17,17 @@ FollowedLately::Count FollowedLately::Faded(Count count, std::int64_t now_unix_m
   return {.passed = count.passed * left, .lost = count.lost * left, .at_unix_ms = now_unix_ms};
 }
 
-void FollowedLately::Load(std::span<const store::FollowedStretch> followed) {
-  for (const store::FollowedStretch& each : followed) {
+void FollowedLately::Load(std::span<const store::FollowedSection> followed) {
+  for (const store::FollowedSection& each : followed) {
     counts_.Touch({each.key, each.number}) = {each.passed, each.lost, each.at_unix_ms, true};
   }
 }
 
-void FollowedLately::Hear(const exchange::FollowedStretches& told, std::int64_t now_unix_ms) {
+void FollowedLately::Hear(const exchange::FollowedSections& told, std::int64_t now_unix_ms) {
   const auto length_m = length_of_(told.key);
   if (!length_m) return;
-  for (const exchange::FollowedStretches::Stretch& each : told.stretches) {
-    if (each.number * exchange::kFollowedStretch_m >= *length_m) continue;
+  for (const exchange::FollowedSections::Section& each : told.sections) {
+    if (each.number * exchange::kFollowedSection_m >= *length_m) continue;
     Count& count = counts_.Touch({told.key, each.number});
     count = Faded(count, now_unix_ms);
     count.passed += each.passed;
@@ -42,10 +42,10 @@ std::vector<FollowedLately::Poor> FollowedLately::Poorly(std::int64_t now_unix_m
     const auto& [key, number] = where;
     const Count now = Faded(count, now_unix_ms);
     const double cost = 1.0 + kLostCosts * now.lost / (now.passed + kTakenForGranted);
-    const double from_m = static_cast<double>(number) * exchange::kFollowedStretch_m;
+    const double from_m = static_cast<double>(number) * exchange::kFollowedSection_m;
     Poor each{.key = key,
               .from_m = from_m,
-              .to_m = from_m + exchange::kFollowedStretch_m,
+              .to_m = from_m + exchange::kFollowedSection_m,
               .passed = ToTenth(now.passed),
               .lost = ToTenth(now.lost),
               .cost = ToTenth(cost)};
@@ -57,8 +57,8 @@ std::vector<FollowedLately::Poor> FollowedLately::Poorly(std::int64_t now_unix_m
   return poor;
 }
 
-std::vector<store::FollowedStretch> FollowedLately::Unsaved() const {
-  std::vector<store::FollowedStretch> unsaved;
+std::vector<store::FollowedSection> FollowedLately::Unsaved() const {
+  std::vector<store::FollowedSection> unsaved;
   for (const auto& [where, count] : counts_) {
     if (count.saved) continue;
     unsaved.push_back({where.first, where.second, count.passed, count.lost, count.at_unix_ms});

@@ -27,14 +27,14 @@ class FollowedLately {
   // robot then counts for less than many, and old reports for almost nothing.
   static constexpr double kTakenForGranted = 2.0;
   // Beyond this number those with the oldest news are forgotten.
-  static constexpr std::size_t kMostStretches = store::NetworkStore::kMostFollowed;
+  static constexpr std::size_t kMostSections = store::NetworkStore::kMostFollowed;
 
   // Returns the length of a complete revision, or nothing if it is not known.
   using LengthOf = std::function<std::optional<double>(const route::RouteKey&)>;
   explicit FollowedLately(LengthOf length_of) : length_of_(std::move(length_of)) {}
 
-  void Load(std::span<const store::FollowedStretch> followed);  // the oldest first
-  void Hear(const exchange::FollowedStretches& told, std::int64_t now_unix_ms);
+  void Load(std::span<const store::FollowedSection> followed);  // the oldest first
+  void Hear(const exchange::FollowedSections& told, std::int64_t now_unix_ms);
 
   // A section that therefore costs more, rounded to tenths as people see it.
   struct Poor {
@@ -50,7 +50,7 @@ class FollowedLately {
   [[nodiscard]] std::vector<Poor> Poorly(std::int64_t now_unix_ms) const;
 
   // Returns the changes since it was last saved.
-  [[nodiscard]] std::vector<store::FollowedStretch> Unsaved() const;
+  [[nodiscard]] std::vector<store::FollowedSection> Unsaved() const;
   void NoteSaved();
 
  private:
@@ -63,7 +63,7 @@ class FollowedLately {
   [[nodiscard]] static Count Faded(Count count, std::int64_t now_unix_ms);
 
   LengthOf length_of_;
-  NewestMap<std::pair<route::RouteKey, std::int64_t>, Count> counts_{kMostStretches};
+  NewestMap<std::pair<route::RouteKey, std::int64_t>, Count> counts_{kMostSections};
 };
 
 }  // namespace trailcast::server

@@ -1,13 +1,13 @@
-// This part of NetworkBoard knows how well robots follow.
+// This part of NetworkRegistry knows how well robots follow.
 #include <algorithm>
 #include <utility>
 
-#include "route_server/network/network_board.h"
 #include "route_server/network/network_ids.h"
+#include "route_server/network/network_registry.h"
 
 namespace trailcast::server {
 
-Result<void> NetworkBoard::KeepFollowed(std::int64_t now_unix_ms) {
+Result<void> NetworkRegistry::KeepFollowed(std::int64_t now_unix_ms) {
   // NoteChange() is left out, because robots under way keep their path.
   auto poor = followed_.Poorly(now_unix_ms);
   if (poor != poor_) network_.reset();
@@ -19,13 +19,13 @@ Result<void> NetworkBoard::KeepFollowed(std::int64_t now_unix_ms) {
   return {};
 }
 
-std::optional<double> NetworkBoard::LengthOf(const route::RouteKey& key) const {
+std::optional<double> NetworkRegistry::LengthOf(const route::RouteKey& key) const {
   const auto info = routes_.FindRoute(key);
   if (!info || !*info || (*info)->state != route::RouteState::kComplete) return std::nullopt;
   return (*info)->length_m > 0.0 ? std::optional((*info)->length_m) : std::nullopt;
 }
 
-std::vector<network::Condition> NetworkBoard::CostsOfPoor() const {
+std::vector<network::Condition> NetworkRegistry::CostsOfPoor() const {
   std::vector<network::Condition> costs;
   for (const FollowedLately::Poor& each : poor_) {
     costs.push_back(
@@ -34,7 +34,7 @@ std::vector<network::Condition> NetworkBoard::CostsOfPoor() const {
   return costs;
 }
 
-std::vector<std::string> NetworkBoard::PoorLines() const {
+std::vector<std::string> NetworkRegistry::PoorLines() const {
   std::vector<std::string> lines;
   for (const FollowedLately::Poor& each : poor_) {
     const auto known = known_.find(each.key.route);
@@ -42,7 +42,7 @@ std::vector<std::string> NetworkBoard::PoorLines() const {
     const route::RouteInfo& followed = *known->second.followed;
     if (followed.key != each.key) continue;
     lines.push_back(
-        network::ToText(network::LostStretch{.route = known->second.called,
+        network::ToText(network::LostSection{.route = known->second.called,
                                              .from_m = each.from_m,
                                              .to_m = std::min(each.to_m, followed.length_m),
                                              .passed = each.passed,

@@ -1,24 +1,25 @@
-// This part of NetworkBoard knows which routes are meant and followed, and their names.
+// This part of NetworkRegistry knows which routes are meant and followed, and their names.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 
-#include "route_server/network/network_board.h"
 #include "route_server/network/network_ids.h"
+#include "route_server/network/network_registry.h"
 #include "route_server/routes/followable.h"
 #include "services/exchange/route_finder.h"
+#include "services/mission/orders.h"
 #include "services/route/route_ref.h"
 
 namespace trailcast::server {
 
 using network::Condition;
 using network::Goal;
-using network::Joint;
+using network::Junction;
 using network::NamedPlace;
 using network::Place;
 
-Result<route::RouteInfo> NetworkBoard::Meant(const std::string& words) const {
+Result<route::RouteInfo> NetworkRegistry::Meant(const std::string& words) const {
   const auto ref = route::ParseRouteRef(words);
   if (!ref) return tl::unexpected(ref.error());
   const auto routes = routes_.FindMeant(ref->route);
@@ -38,7 +39,7 @@ Result<route::RouteInfo> NetworkBoard::Meant(const std::string& words) const {
   return *std::move(meant);
 }
 
-Result<Place> NetworkBoard::Resolve(const Place& named) const {
+Result<Place> NetworkRegistry::Resolve(const Place& named) const {
   const auto meant = Meant(named.route);
   if (!meant) return tl::unexpected(meant.error());
   if (named.along_m > meant->length_m + kSame_m) {
@@ -49,7 +50,7 @@ Result<Place> NetworkBoard::Resolve(const Place& named) const {
   return Place{IdOf(meant->key), ToCentimetre(named.along_m)};
 }
 
-Result<Place> NetworkBoard::Resolve(const Goal& goal) const {
+Result<Place> NetworkRegistry::Resolve(const Goal& goal) const {
   if (goal.name.empty()) return Resolve(goal.place);
   const auto at = named_.find(goal.name);
   if (at != named_.end()) return at->second.place;
@@ -60,8 +61,8 @@ Result<Place> NetworkBoard::Resolve(const Goal& goal) const {
       goal.name, goal.name);
 }
 
-Result<std::vector<Place>> NetworkBoard::PlacesOf(const Goal& goal) const {
-  if (goal.name != network::kHome || named_.contains(goal.name)) {
+Result<std::vector<Place>> NetworkRegistry::PlacesOf(const Goal& goal) const {
+  if (goal.name != mission::kHome || named_.contains(goal.name)) {
     auto place = Resolve(goal);
     if (!place) return tl::unexpected(place.error());
     return std::vector{*std::move(place)};
@@ -75,23 +76,23 @@ Result<std::vector<Place>> NetworkBoard::PlacesOf(const Goal& goal) const {
               "no place is a home: 'trailcast network name NAME ROUTE@METRES home' makes it one");
 }
 
-Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
+Result<void> NetworkRegistry::Know(const std::set<RouteId>& asked) {
   const auto all_known = std::all_of(asked.begin(), asked.end(),
                                      [&](const RouteId& id) { return known_.contains(id); });
   if (network_ && all_known) return {};
   std::set<RouteId> wanted = asked;
-  for (const Joint& joint : joints_) {
-    wanted.insert({KeyOf(joint.from.route).route, KeyOf(joint.to.route).route});
+  for (const Junction& junction : junctions_) {
+    wanted.insert({KeyOf(junction.from.route).route, KeyOf(junction.to.route).route});
   }
   for (const Condition& condition : conditions_) wanted.insert(RouteId(condition.route));
   for (const auto& [name, named] : named_) wanted.insert(KeyOf(named.place.route).route);
   for (const store::KeptLane& kept : lanes_) {
     for (const network::Part& part : kept.lane.parts) wanted.insert(RouteId(part.route));
   }
-  for (const store::ProposedJoint& each : proposed_) {
-    if (each.verdict != store::ProposedJoint::Verdict::kNone) continue;
-    const Joint& joint = each.proposal.joint;
-    wanted.insert({KeyOf(joint.from.route).route, KeyOf(joint.to.route).route});
+  for (const store::ProposedJunction& each : proposed_) {
+    if (each.verdict != store::ProposedJunction::Verdict::kNone) continue;
+    const Junction& junction = each.proposal.junction;
+    wanted.insert({KeyOf(junction.from.route).route, KeyOf(junction.to.route).route});
   }
   std::erase_if(known_, [&](const auto& each) { return !wanted.contains(each.first); });
   names_.clear();
@@ -108,9 +109,10 @@ Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
       routes.push_back({IdOf(followed->key), at->second.called, followed->length_m});
     }
   }
-  std::vector<Joint> joints;
-  std::copy_if(joints_.begin(), joints_.end(), std::back_inserter(joints),
-               [&](const Joint& joint) { return IsUsed(joint.from) && IsUsed(joint.to); });
+  std::vector<Junction> junctions;
+  std::copy_if(
+      junctions_.begin(), junctions_.end(), std::back_inserter(junctions),
+      [&](const Junction& junction) { return IsUsed(junction.from) && IsUsed(junction.to); });
   std::vector<Condition> conditions = CostsOfPoor();
   for (Condition condition : conditions_) {
     const Known& known = known_.at(RouteId(condition.route));
@@ -118,13 +120,13 @@ Result<void> NetworkBoard::Know(const std::set<RouteId>& asked) {
     condition.route = IdOf(known.followed->key);
     conditions.push_back(std::move(condition));
   }
-  auto built = network::Network::Build(std::move(routes), joints, conditions);
+  auto built = network::Network::Build(std::move(routes), junctions, conditions);
   if (!built) return tl::unexpected(built.error());
   network_ = *std::move(built);
   return {};
 }
 
-Result<NetworkBoard::Known> NetworkBoard::LookUp(const RouteId& route) const {
+Result<NetworkRegistry::Known> NetworkRegistry::LookUp(const RouteId& route) const {
   const auto revisions = routes_.FindRevisions(route);
   if (!revisions) return tl::unexpected(revisions.error());
   const auto followed = std::find_if(revisions->begin(), revisions->end(), IsFollowable);
@@ -137,18 +139,18 @@ Result<NetworkBoard::Known> NetworkBoard::LookUp(const RouteId& route) const {
   return known;
 }
 
-bool NetworkBoard::IsUsed(const Place& place) const {
+bool NetworkRegistry::IsUsed(const Place& place) const {
   const auto key = KeyOf(place.route);
   const auto at = known_.find(key.route);
   return at != known_.end() && at->second.followed && at->second.followed->key == key;
 }
 
-std::string NetworkBoard::Called(const RouteId& route) const {
+std::string NetworkRegistry::Called(const RouteId& route) const {
   const auto at = known_.find(route);
   return at == known_.end() ? route.value() : at->second.called;
 }
 
-Result<Place> NetworkBoard::Called(const Place& place) const {
+Result<Place> NetworkRegistry::Called(const Place& place) const {
   const auto key = KeyOf(place.route);
   if (IsUsed(place)) return Place{Called(key.route), place.along_m};
   const auto info = routes_.FindRoute(key);
@@ -157,16 +159,16 @@ Result<Place> NetworkBoard::Called(const Place& place) const {
   return Place{fmt::format("{}@{}", (*info)->name, (*info)->revision.value()), place.along_m};
 }
 
-Result<Joint> NetworkBoard::Called(Joint joint) const {
-  for (Place* place : {&joint.from, &joint.to}) {
+Result<Junction> NetworkRegistry::Called(Junction junction) const {
+  for (Place* place : {&junction.from, &junction.to}) {
     auto called = Called(*place);
     if (!called) return tl::unexpected(called.error());
     *place = *std::move(called);
   }
-  return joint;
+  return junction;
 }
 
-Result<NamedPlace> NetworkBoard::Called(NamedPlace named) const {
+Result<NamedPlace> NetworkRegistry::Called(NamedPlace named) const {
   auto called = Called(named.place);
   if (!called) return tl::unexpected(called.error());
   named.place = *std::move(called);

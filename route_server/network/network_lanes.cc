@@ -1,4 +1,4 @@
-// This part of NetworkBoard keeps mutex zones.
+// This part of NetworkRegistry keeps mutex zones.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "route_server/network/network_board.h"
 #include "route_server/network/network_ids.h"
+#include "route_server/network/network_registry.h"
 
 namespace trailcast::server {
 namespace {
@@ -20,8 +20,8 @@ bool AreSame(const Lane& a, const Lane& b) {
   return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(),
                     [](const Part& one, const Part& other) {
                       return one.route == other.route &&
-                             std::abs(one.from_m - other.from_m) <= NetworkBoard::kSame_m &&
-                             std::abs(one.to_m - other.to_m) <= NetworkBoard::kSame_m;
+                             std::abs(one.from_m - other.from_m) <= NetworkRegistry::kSame_m &&
+                             std::abs(one.to_m - other.to_m) <= NetworkRegistry::kSame_m;
                     });
 }
 
@@ -33,7 +33,7 @@ bool Overlaps(const Lane& lane, const network::Condition& where) {
 
 }  // namespace
 
-Result<Lines> NetworkBoard::Narrow(Lane lane, const std::string& by, std::int64_t now_unix_ms) {
+Result<Lines> NetworkRegistry::Narrow(Lane lane, const std::string& by, std::int64_t now_unix_ms) {
   for (network::Part& part : lane.parts) {
     const auto meant = Meant(part.route);
     if (!meant) return tl::unexpected(meant.error());
@@ -56,8 +56,8 @@ Result<Lines> NetworkBoard::Narrow(Lane lane, const std::string& by, std::int64_
   return Lines{network::ToText(CalledLane(*kept))};
 }
 
-Result<Lines> NetworkBoard::LetBack(const network::Edit& edit, const std::string& by,
-                                    std::int64_t now_unix_ms) {
+Result<Lines> NetworkRegistry::LetBack(const network::Edit& edit, const std::string& by,
+                                       std::int64_t now_unix_ms) {
   const auto meant = Meant(edit.condition.route);
   if (!meant) return tl::unexpected(meant.error());
   const double end_m = std::min(edit.condition.to_m, meant->length_m);
@@ -69,7 +69,7 @@ Result<Lines> NetworkBoard::LetBack(const network::Edit& edit, const std::string
   return lines;
 }
 
-Result<Lines> NetworkBoard::Leave(const network::Edit& edit) {
+Result<Lines> NetworkRegistry::Leave(const network::Edit& edit) {
   const auto meant = Meant(edit.condition.route);
   if (!meant) return tl::unexpected(meant.error());
   if (auto known = Know({meant->key.route}); !known) return tl::unexpected(known.error());
@@ -108,7 +108,7 @@ Result<Lines> NetworkBoard::Leave(const network::Edit& edit) {
               meant->name);
 }
 
-Result<std::vector<Lane>> NetworkBoard::Lanes() {
+Result<std::vector<Lane>> NetworkRegistry::Lanes() {
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
   std::vector<Lane> lanes;
   for (const store::KeptLane& kept : lanes_) {
@@ -121,7 +121,7 @@ Result<std::vector<Lane>> NetworkBoard::Lanes() {
   return lanes;
 }
 
-NetworkBoard::LaneSet NetworkBoard::HeldBy(const AgentId& agent) const {
+NetworkRegistry::LaneSet NetworkRegistry::HeldBy(const AgentId& agent) const {
   LaneSet held;
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     if (lanes_[i].holders.contains(agent)) held.insert(i);
@@ -129,61 +129,61 @@ NetworkBoard::LaneSet NetworkBoard::HeldBy(const AgentId& agent) const {
   return held;
 }
 
-std::vector<std::int64_t> NetworkBoard::NumbersOf(const LaneSet& lanes) const {
+std::vector<std::int64_t> NetworkRegistry::NumbersOf(const LaneSet& lanes) const {
   std::vector<std::int64_t> numbers;
   for (const std::size_t lane : lanes) numbers.push_back(lanes_[lane].number);
   return numbers;
 }
 
-Result<void> NetworkBoard::Hold(const LaneSet& lanes, const AgentId& agent) {
+Result<void> NetworkRegistry::Hold(const LaneSet& lanes, const AgentId& agent) {
   if (auto held = store_->Hold(NumbersOf(lanes), agent); !held) return held;
   for (const std::size_t lane : lanes) lanes_[lane].holders.insert(agent);
   return {};
 }
 
-Result<void> NetworkBoard::Release(const LaneSet& lanes, const AgentId& agent) {
+Result<void> NetworkRegistry::Release(const LaneSet& lanes, const AgentId& agent) {
   if (auto released = store_->Release(NumbersOf(lanes), agent); !released) return released;
   for (const std::size_t lane : lanes) lanes_[lane].holders.erase(agent);
   return {};
 }
 
-Lane NetworkBoard::CalledLane(const store::KeptLane& kept) const {
+Lane NetworkRegistry::CalledLane(const store::KeptLane& kept) const {
   Lane lane = kept.lane;
   for (network::Part& part : lane.parts) part.route = Called(RouteId(part.route));
   return lane;
 }
 
-std::string NetworkBoard::Called(std::size_t lane) const {
+std::string NetworkRegistry::Called(std::size_t lane) const {
   const network::Part& part = lanes_[lane].lane.parts.front();
   return fmt::format("{} {:g}..{:g}", Called(RouteId(part.route)), part.from_m, part.to_m);
 }
 
-Result<std::vector<mission::Task>> NetworkBoard::TasksOf(std::span<const network::Stretch> way,
-                                                         const LaneSet& open) {
+Result<std::vector<mission::Task>> NetworkRegistry::TasksOf(std::span<const network::Section> way,
+                                                            const LaneSet& open) {
   const auto lanes = Lanes();
   if (!lanes) return tl::unexpected(lanes.error());
   return TasksOf(network::LegsOf(way, *lanes, open));
 }
 
-std::vector<mission::Task> NetworkBoard::TasksOf(std::span<const network::Leg> legs) const {
+std::vector<mission::Task> NetworkRegistry::TasksOf(std::span<const network::Leg> legs) const {
   std::vector<mission::Task> tasks;
   for (const network::Leg& leg : legs) {
     if (&leg != &legs.front()) tasks.push_back({.kind = mission::Task::Kind::kWaitLane});
-    const network::Stretch* before = nullptr;
+    const network::Section* before = nullptr;
     double turn_rad = 0.0;
-    for (const network::Stretch& stretch : leg.stretches) {
-      turn_rad += stretch.turn_rad;
-      if (stretch.length_m() <= kSame_m) continue;
+    for (const network::Section& section : leg.sections) {
+      turn_rad += section.turn_rad;
+      if (section.length_m() <= kSame_m) continue;
       if (turn_rad != 0.0) {
         tasks.push_back(
             {.kind = mission::Task::Kind::kTurn, .turn_rad = std::exchange(turn_rad, 0.0)});
       }
-      if (before != nullptr && GoesOn(*before, stretch) && before->speed == stretch.speed) {
-        tasks.back().to_m = TaskOf(stretch).to_m;
+      if (before != nullptr && GoesOn(*before, section) && before->speed == section.speed) {
+        tasks.back().to_m = TaskOf(section).to_m;
       } else {
-        tasks.push_back(TaskOf(stretch));
+        tasks.push_back(TaskOf(section));
       }
-      before = &stretch;
+      before = &section;
     }
   }
   return tasks;

@@ -1,35 +1,35 @@
-// This part of NetworkBoard handles junctions that were found.
+// This part of NetworkRegistry handles junctions that were found.
 #include <algorithm>
 #include <map>
 #include <utility>
 
-#include "route_server/network/network_board.h"
 #include "route_server/network/network_ids.h"
+#include "route_server/network/network_registry.h"
 #include "services/exchange/bounds.h"
 
 namespace trailcast::server {
 namespace {
 
 using network::Edit;
-using network::Joint;
+using network::Junction;
 using network::Place;
-using Verdict = store::ProposedJoint::Verdict;
+using Verdict = store::ProposedJunction::Verdict;
 
 // An operator who names the two places need not copy the centimetres.
 constexpr double kNamed_m = 1.0;
 
-Joint JointOf(const Meeting& meeting) {
-  Joint joint{.from = {IdOf(meeting.a), ToCentimetre(meeting.at_a_m)},
-              .to = {IdOf(meeting.b), ToCentimetre(meeting.at_b_m)},
-              .both = true};
+Junction JunctionOf(const Meeting& meeting) {
+  Junction junction{.from = {IdOf(meeting.a), ToCentimetre(meeting.at_a_m)},
+                    .to = {IdOf(meeting.b), ToCentimetre(meeting.at_b_m)},
+                    .both = true};
   double turn_rad = meeting.heading_rad.value_or(0.0);
   // On a route that comes back, the end leads to the beginning.
-  if (meeting.a == meeting.b && joint.from.along_m < joint.to.along_m) {
-    std::swap(joint.from, joint.to);
+  if (meeting.a == meeting.b && junction.from.along_m < junction.to.along_m) {
+    std::swap(junction.from, junction.to);
     turn_rad = -turn_rad;
   }
-  if (meeting.heading_rad) joint.lie = network::Lie{.turn_rad = turn_rad};
-  return joint;
+  if (meeting.heading_rad) junction.lie = network::Lie{.turn_rad = turn_rad};
+  return junction;
 }
 
 bool IsBeside(const Place& one, const Place& other, double length_m, double within_m) {
@@ -39,39 +39,38 @@ bool IsBeside(const Place& one, const Place& other, double length_m, double with
 
 // Says whether the other junction's places are these, or further along the common section of both
 // routes.
-bool Covers(const Joint& joint, double length_m, const Joint& other, double within_m) {
+bool Covers(const Junction& junction, double length_m, const Junction& other, double within_m) {
   const auto beside = [&](const Place& from, const Place& to) {
-    return IsBeside(joint.from, from, length_m, within_m) &&
-           IsBeside(joint.to, to, length_m, within_m);
+    return IsBeside(junction.from, from, length_m, within_m) &&
+           IsBeside(junction.to, to, length_m, within_m);
   };
   return beside(other.from, other.to) || beside(other.to, other.from);
 }
 
-bool AreOfOnePair(const Joint& one, const Joint& other) {
+bool AreOfOnePair(const Junction& one, const Junction& other) {
   return (one.from.route == other.from.route && one.to.route == other.to.route) ||
          (one.from.route == other.to.route && one.to.route == other.from.route);
 }
 
-std::pair<std::string, std::string> PairOf(const Joint& joint) {
-  return std::minmax(joint.from.route, joint.to.route);
+std::pair<std::string, std::string> PairOf(const Junction& junction) {
+  return std::minmax(junction.from.route, junction.to.route);
 }
 
 }  // namespace
 
-Result<std::optional<NetworkBoard::Proposed>> NetworkBoard::Propose(const Meeting& meeting,
-                                                                    double take_from,
-                                                                    std::int64_t now_unix_ms) {
-  store::ProposedJoint found{.proposal = {JointOf(meeting), meeting.confidence},
-                             .length_m = meeting.length_m};
-  const Joint& joint = found.proposal.joint;
-  const bool is_joined = std::any_of(joints_.begin(), joints_.end(), [&](const Joint& each) {
-    return Covers(joint, 0.0, each, kSameMeeting_m);
-  });
+Result<std::optional<NetworkRegistry::Proposed>> NetworkRegistry::Propose(
+    const Meeting& meeting, double take_from, std::int64_t now_unix_ms) {
+  store::ProposedJunction found{.proposal = {JunctionOf(meeting), meeting.confidence},
+                                .length_m = meeting.length_m};
+  const Junction& junction = found.proposal.junction;
+  const bool is_joined = std::any_of(
+      junctions_.begin(), junctions_.end(),
+      [&](const Junction& each) { return Covers(junction, 0.0, each, kSameMeeting_m); });
   const bool is_known = std::any_of(proposed_.begin(), proposed_.end(), [&](const auto& each) {
-    return Covers(joint, meeting.length_m, each.proposal.joint, kSameMeeting_m);
+    return Covers(junction, meeting.length_m, each.proposal.junction, kSameMeeting_m);
   });
   const auto of_pair = std::count_if(proposed_.begin(), proposed_.end(), [&](const auto& each) {
-    return AreOfOnePair(joint, each.proposal.joint);
+    return AreOfOnePair(junction, each.proposal.junction);
   });
   if (is_joined || is_known || of_pair >= static_cast<std::ptrdiff_t>(kMostOfAPair)) {
     return std::nullopt;
@@ -79,16 +78,16 @@ Result<std::optional<NetworkBoard::Proposed>> NetworkBoard::Propose(const Meetin
   if (auto known = Know({meeting.a.route, meeting.b.route}); !known) {
     return tl::unexpected(known.error());
   }
-  if (!IsUsed(joint.from) || !IsUsed(joint.to)) return std::nullopt;
+  if (!IsUsed(junction.from) || !IsUsed(junction.to)) return std::nullopt;
   if (meeting.confidence >= take_from) found.verdict = Verdict::kTaken;
   if (auto put = store_->Put({&found, 1}, server_.value(), now_unix_ms); !put) {
     return tl::unexpected(put.error());
   }
   const bool taken = found.verdict == Verdict::kTaken;
-  auto called = Called(joint);
+  auto called = Called(junction);
   if (!called) return tl::unexpected(called.error());
   if (taken) {
-    joints_.push_back(joint);
+    junctions_.push_back(junction);
     made_.push_back({now_unix_ms, server_.value(), network::ToText(*called)});
   }
   proposed_.push_back(found);
@@ -97,29 +96,29 @@ Result<std::optional<NetworkBoard::Proposed>> NetworkBoard::Propose(const Meetin
                   taken};
 }
 
-bool NetworkBoard::WasSearched(const route::RouteKey& key) const {
+bool NetworkRegistry::WasSearched(const route::RouteKey& key) const {
   return searched_.contains(IdOf(key));
 }
 
-void NetworkBoard::MarkSearched(const route::RouteKey& key) {
+void NetworkRegistry::MarkSearched(const route::RouteKey& key) {
   if (searched_.insert(IdOf(key)).second) unsaved_.push_back(IdOf(key));
 }
 
-Result<void> NetworkBoard::SaveSearched() {
+Result<void> NetworkRegistry::SaveSearched() {
   const auto unsaved = std::exchange(unsaved_, {});
   return unsaved.empty() ? Result<void>() : store_->MarkSearched(unsaved);
 }
 
-std::size_t NetworkBoard::open_proposals() const {
+std::size_t NetworkRegistry::open_proposals() const {
   return static_cast<std::size_t>(std::count_if(
       proposed_.begin(), proposed_.end(),
-      [](const store::ProposedJoint& each) { return each.verdict == Verdict::kNone; }));
+      [](const store::ProposedJunction& each) { return each.verdict == Verdict::kNone; }));
 }
 
-void NetworkBoard::DropProposals(const route::RouteKey& key) {
+void NetworkRegistry::DropProposals(const route::RouteKey& key) {
   const std::string id = IdOf(key);
   const std::size_t dropped = std::erase_if(proposed_, [&](const auto& each) {
-    return each.proposal.joint.from.route == id || each.proposal.joint.to.route == id;
+    return each.proposal.junction.from.route == id || each.proposal.junction.to.route == id;
   });
   if (searched_.erase(id) == 0 && dropped == 0) return;
   std::erase(unsaved_, id);
@@ -128,34 +127,34 @@ void NetworkBoard::DropProposals(const route::RouteKey& key) {
   (void)store_->DropProposals(id);
 }
 
-std::vector<std::size_t> NetworkBoard::Open() const {
-  std::map<std::pair<std::string, std::string>, std::vector<const Joint*>> joined;
-  for (const Joint& joint : joints_) joined[PairOf(joint)].push_back(&joint);
+std::vector<std::size_t> NetworkRegistry::Open() const {
+  std::map<std::pair<std::string, std::string>, std::vector<const Junction*>> joined;
+  for (const Junction& junction : junctions_) joined[PairOf(junction)].push_back(&junction);
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < proposed_.size(); ++i) {
-    const Joint& joint = proposed_[i].proposal.joint;
+    const Junction& junction = proposed_[i].proposal.junction;
     if (proposed_[i].verdict != Verdict::kNone) continue;
-    if (!IsUsed(joint.from) || !IsUsed(joint.to)) continue;
-    const auto& of_pair = joined[PairOf(joint)];
-    const bool is_joined = std::any_of(of_pair.begin(), of_pair.end(), [&](const Joint* each) {
-      return Covers(joint, 0.0, *each, kSameMeeting_m);
+    if (!IsUsed(junction.from) || !IsUsed(junction.to)) continue;
+    const auto& of_pair = joined[PairOf(junction)];
+    const bool is_joined = std::any_of(of_pair.begin(), of_pair.end(), [&](const Junction* each) {
+      return Covers(junction, 0.0, *each, kSameMeeting_m);
     });
     if (!is_joined) open.push_back(i);
   }
   return open;
 }
 
-Result<std::vector<std::size_t>> NetworkBoard::OpenAt(const Joint& named) const {
-  Joint joint;
+Result<std::vector<std::size_t>> NetworkRegistry::OpenAt(const Junction& named) const {
+  Junction junction;
   auto from = Resolve(named.from);
   if (!from) return tl::unexpected(from.error());
   auto to = Resolve(named.to);
   if (!to) return tl::unexpected(to.error());
-  joint.from = *std::move(from);
-  joint.to = *std::move(to);
+  junction.from = *std::move(from);
+  junction.to = *std::move(to);
   auto open = Open();
   std::erase_if(open, [&](std::size_t each) {
-    return !Covers(joint, 0.0, proposed_[each].proposal.joint, kNamed_m);
+    return !Covers(junction, 0.0, proposed_[each].proposal.junction, kNamed_m);
   });
   if (!open.empty()) return open;
   return Fail(
@@ -165,10 +164,10 @@ Result<std::vector<std::size_t>> NetworkBoard::OpenAt(const Joint& named) const 
       network::ToText(named.from), network::ToText(named.to));
 }
 
-Result<std::vector<std::string>> NetworkBoard::Settle(const Edit& edit, const std::string& by,
-                                                      std::int64_t now_unix_ms) {
+Result<std::vector<std::string>> NetworkRegistry::Settle(const Edit& edit, const std::string& by,
+                                                         std::int64_t now_unix_ms) {
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
-  auto open = edit.all ? Result<std::vector<std::size_t>>(Open()) : OpenAt(edit.joint);
+  auto open = edit.all ? Result<std::vector<std::size_t>>(Open()) : OpenAt(edit.junction);
   if (!open) return tl::unexpected(open.error());
   if (edit.all) {
     std::erase_if(*open, [&](std::size_t each) {
@@ -180,12 +179,12 @@ Result<std::vector<std::string>> NetworkBoard::Settle(const Edit& edit, const st
   open->resize(std::min(open->size(), exchange::kMaxNetworkLines));
   const bool taken = edit.kind == Edit::Kind::kConfirm;
   std::vector<std::string> lines;
-  std::vector<store::ProposedJoint> settled;
+  std::vector<store::ProposedJunction> settled;
   for (const std::size_t each : *open) {
     settled.push_back(proposed_[each]);
     settled.back().verdict = taken ? Verdict::kTaken : Verdict::kRefused;
     const network::Proposal& proposal = settled.back().proposal;
-    auto called = Called(proposal.joint);
+    auto called = Called(proposal.junction);
     if (!called) return tl::unexpected(called.error());
     lines.push_back(taken ? network::ToText(*called)
                           : network::ToText(network::Proposal{*called, proposal.confidence}));
@@ -193,7 +192,7 @@ Result<std::vector<std::string>> NetworkBoard::Settle(const Edit& edit, const st
   if (auto put = store_->Put(settled, by, now_unix_ms); !put) return tl::unexpected(put.error());
   for (std::size_t i = 0; i < settled.size(); ++i) {
     proposed_[(*open)[i]] = settled[i];
-    if (taken) joints_.push_back(settled[i].proposal.joint);
+    if (taken) junctions_.push_back(settled[i].proposal.junction);
   }
   NoteChange();
   return lines;

@@ -14,11 +14,11 @@ namespace trailcast::server {
 namespace {
 
 using mission::Task;
-using network::Stretch;
+using network::Section;
 
 // Two sections of which one continues where the other ends are one to a robot.
-void Append(std::vector<Stretch>& way, const Stretch& next) {
-  const bool is_none = next.length_m() <= NetworkBoard::kSame_m && next.turn_rad == 0.0;
+void Append(std::vector<Section>& way, const Section& next) {
+  const bool is_none = next.length_m() <= NetworkRegistry::kSame_m && next.turn_rad == 0.0;
   if (is_none && !way.empty()) return;
   if (!way.empty() && GoesOn(way.back(), next) && way.back().speed == next.speed) {
     way.back().to_m = next.to_m;
@@ -39,9 +39,9 @@ bool AsksForWay(const mission::Record& record) {
 // The rest of a robot's path.
 struct Replanning::Rest {
   mission::Going going{};  // without a destination if it was sent along routes by hand
-  std::vector<Stretch> stretches{};
-  std::optional<NetworkBoard::Stand> stand{};  // its place, if it has reported one
-  bool missed = false;                         // it is off its path,
+  std::vector<Section> sections{};
+  std::optional<NetworkRegistry::Stand> stand{};  // its place, if it has reported one
+  bool missed = false;                            // it is off its path,
   bool passed = false;                         // and past the place where it had to leave its route
   bool waits = false;                          // for a path
   std::optional<network::Condition> closed{};  // the first closed section on its path
@@ -50,7 +50,7 @@ struct Replanning::Rest {
 
 // A new path from the robot's place.
 struct Replanning::Plan {
-  std::vector<Stretch> way{};
+  std::vector<Section> way{};
   std::string no_way{};  // if not empty, there is no path, and the sections lead to where it waits
 };
 
@@ -104,16 +104,16 @@ Result<Replanning::Rest> Replanning::RestOf(const mission::Record& record) {
   Rest rest;
   rest.going = mission::GoingIn(record.mission.orders).value_or(mission::Going{});
   rest.waits = tasks->back().kind == Task::Kind::kWaitWay;
-  std::vector<Stretch> all;
+  std::vector<Section> all;
   std::size_t said = 0;  // index of the one that it reports
   bool laps = false;
   for (std::size_t i = 0; i < tasks->size(); ++i) {
     if (i == record.last.task) said = all.size();
     if ((*tasks)[i].kind != Task::Kind::kFollow) continue;
-    auto stretch = network_.StretchOf(*tasks, i);
-    if (!stretch) return tl::unexpected(stretch.error());
+    auto section = network_.SectionOf(*tasks, i);
+    if (!section) return tl::unexpected(section.error());
     laps |= i == record.last.task && (*tasks)[i].laps > 1;
-    all.push_back(*std::move(stretch));
+    all.push_back(*std::move(section));
   }
   if (const auto* stand = network_.StandOf(record.mission.agent)) rest.stand = *stand;
   if (!rest.waits && AsksForWay(record)) {
@@ -126,8 +126,8 @@ Result<Replanning::Rest> Replanning::RestOf(const mission::Record& record) {
                         record.last.state == mission::State::kPaused;
     TakeFrom(all, said, drives, laps, rest);
   }
-  for (const Stretch& stretch : rest.stretches) {
-    auto closed = network_.FirstClosed(stretch);
+  for (const Section& section : rest.sections) {
+    auto closed = network_.FirstClosed(section);
     if (!closed) return tl::unexpected(closed.error());
     if (!*closed) continue;
     rest.closed = **closed;
@@ -142,11 +142,11 @@ Result<Replanning::Rest> Replanning::RestOf(const mission::Record& record) {
 }
 
 // Takes the rest of all its sections from its place on; `said` is the index that it reports.
-void Replanning::TakeFrom(const std::vector<Stretch>& all, std::size_t said, bool drives, bool laps,
+void Replanning::TakeFrom(const std::vector<Section>& all, std::size_t said, bool drives, bool laps,
                           Rest& rest) {
   auto at = all.begin() + static_cast<std::ptrdiff_t>(said);
   if (rest.stand && at != all.end()) {
-    const auto holds = [&](const Stretch& each) { return Holds(each, rest.stand->place); };
+    const auto holds = [&](const Section& each) { return Holds(each, rest.stand->place); };
     rest.missed =
         rest.going.way > 1 && rest.stand->place.route == all.front().route &&
         all.front().DrivenAt(rest.stand->place.along_m) > all.front().length_m() + kBeyond_m &&
@@ -157,34 +157,34 @@ void Replanning::TakeFrom(const std::vector<Stretch>& all, std::size_t said, boo
     if (found != all.end()) at = found;
     if (!rest.missed && !holds(*at)) rest.stand.reset();
   }
-  rest.stretches.assign(at, all.end());
-  if (!rest.stretches.empty() && rest.stand && !rest.missed && !laps) {
-    rest.stretches.front().BeginAt(rest.stand->place.along_m);
+  rest.sections.assign(at, all.end());
+  if (!rest.sections.empty() && rest.stand && !rest.missed && !laps) {
+    rest.sections.front().BeginAt(rest.stand->place.along_m);
   }
 }
 
 Result<Replanning::Plan> Replanning::PlanOn(const Rest& rest, double ahead_m) {
   Plan plan;
   network::Place from;
-  if (rest.missed || rest.stretches.empty()) {
+  if (rest.missed || rest.sections.empty()) {
     if (!rest.stand)
       return Fail(ErrorCode::kUnavailable, "waits for a way, and has not said where it stands");
     from = rest.stand->place;
   } else {
-    for (const Stretch& stretch : rest.stretches) {
-      const auto closed = network_.FirstClosed(stretch);
+    for (const Section& section : rest.sections) {
+      const auto closed = network_.FirstClosed(section);
       if (!closed) return tl::unexpected(closed.error());
-      double kept_m = std::min(stretch.length_m(), ahead_m);
+      double kept_m = std::min(section.length_m(), ahead_m);
       if (*closed) {
-        const double closed_m = stretch.backwards() ? (**closed).to_m : (**closed).from_m;
-        kept_m = std::clamp(stretch.DrivenAt(closed_m), 0.0, kept_m);
+        const double closed_m = section.backwards() ? (**closed).to_m : (**closed).from_m;
+        kept_m = std::clamp(section.DrivenAt(closed_m), 0.0, kept_m);
       }
-      Stretch kept = stretch;
-      kept.to_m = stretch.AlongAfter(kept_m);
+      Section kept = section;
+      kept.to_m = section.AlongAfter(kept_m);
       from = {kept.route, kept.to_m};
       if (kept_m > 0.0) Append(plan.way, kept);
       ahead_m -= kept_m;
-      if (kept_m < stretch.length_m() || ahead_m <= 0.0) break;
+      if (kept_m < section.length_m() || ahead_m <= 0.0) break;
     }
   }
   auto on = network_.WayOn(from, rest.going.to);
@@ -197,7 +197,7 @@ Result<Replanning::Plan> Replanning::PlanOn(const Rest& rest, double ahead_m) {
     }
   }
   if (on) {
-    for (const Stretch& stretch : *on) Append(plan.way, stretch);
+    for (const Section& section : *on) Append(plan.way, section);
     return plan;
   }
   plan.no_way = on.error().message;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "route_server/fleet/mission_board.h"
-#include "route_server/network/network_board.h"
+#include "route_server/fleet/mission_registry.h"
+#include "route_server/network/network_registry.h"
 #include "services/base/newest_map.h"
 
 namespace trailcast::server {
@@ -29,7 +29,7 @@ class Replanning {
   static constexpr std::chrono::seconds kLookEvery{2};
 
   // Both must outlive this.
-  Replanning(MissionBoard& missions, NetworkBoard& network)
+  Replanning(MissionRegistry& missions, NetworkRegistry& network)
       : missions_(missions), network_(network) {}
 
   // Looks at all robots after an edit, and returns a line on each whose path changes, for the
@@ -42,7 +42,7 @@ class Replanning {
  private:
   struct Rest;
   [[nodiscard]] Result<Rest> RestOf(const mission::Record& record);
-  static void TakeFrom(const std::vector<network::Stretch>& all, std::size_t said, bool drives,
+  static void TakeFrom(const std::vector<network::Section>& all, std::size_t said, bool drives,
                        bool laps, Rest& rest);
   [[nodiscard]] Result<std::string> Replan(const mission::Record& record, const Rest& rest);
   struct Plan;
@@ -55,9 +55,9 @@ class Replanning {
     Time looked_at{};
     Time amended_at{};
   };
-  MissionBoard& missions_;
-  NetworkBoard& network_;
-  NewestMap<AgentId, Seen> seen_{MissionBoard::kMostAgents};
+  MissionRegistry& missions_;
+  NetworkRegistry& network_;
+  NewestMap<AgentId, Seen> seen_{MissionRegistry::kMostAgents};
 };
 
 }  // namespace trailcast::server

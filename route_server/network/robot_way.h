@@ -14,10 +14,10 @@ namespace trailcast::server {
 // A robot's reported place and a beginning or end of its path are the same within this.
 inline constexpr double kOnWay_m = 0.5;
 
-[[nodiscard]] inline bool Holds(const network::Stretch& stretch, const network::Place& place) {
-  const double driven_m = stretch.DrivenAt(place.along_m);
-  return place.route == stretch.route && driven_m >= -kOnWay_m &&
-         driven_m <= stretch.length_m() + kOnWay_m;
+[[nodiscard]] inline bool Holds(const network::Section& section, const network::Place& place) {
+  const double driven_m = section.DrivenAt(place.along_m);
+  return place.route == section.route && driven_m >= -kOnWay_m &&
+         driven_m <= section.length_m() + kOnWay_m;
 }
 
 // Returns the orders for the robot's next path, with the reason as far as there is room for it. If

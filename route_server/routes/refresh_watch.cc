@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "route_server/routes/stretch_reader.h"
+#include "route_server/routes/section_reader.h"
 #include "services/refresh/successor.h"
 
 namespace trailcast::server {

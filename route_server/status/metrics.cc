@@ -85,14 +85,15 @@ std::string Metrics::Text() const {
             "Stored segments dropped because nobody announced their teaching for a day.",
             dropped_orphans);
   lines.Add("routes_searched_total", kCounter,
-            "Routes for which it was looked where others meet them.", joints.routes_searched);
-  lines.Add("joints_proposed_total", kCounter, "Junctions found and proposed.", joints.proposed);
-  lines.Add("joints_taken_total", kCounter, "Junctions found and made without asking.",
-            joints.taken);
-  lines.Add("joints_open", kGauge, "Proposed junctions that nobody has confirmed or refused.",
-            joints.open);
+            "Routes for which it was looked where others meet them.", junctions.routes_searched);
+  lines.Add("junctions_proposed_total", kCounter, "Junctions found and proposed.",
+            junctions.proposed);
+  lines.Add("junctions_taken_total", kCounter, "Junctions found and made without asking.",
+            junctions.taken);
+  lines.Add("junctions_open", kGauge, "Proposed junctions that nobody has confirmed or refused.",
+            junctions.open);
   lines.Add("crossings_total", kCounter, "Known routes that scouts were told they cross.",
-            joints.crossings);
+            junctions.crossings);
   lines.Add("messages_dropped_total", kCounter, "Messages out of bounds or unreadable.", dropped);
   constexpr const char* kQueries = "trailcast_catalog_query_seconds";
   std::string text = lines.text();

@@ -46,7 +46,7 @@ struct Metrics {
     std::uint64_t taken = 0;            // without asking
     std::uint64_t crossings = 0;        // reported to scouts
     std::size_t open = 0;               // proposals that await an operator
-  } joints{};
+  } junctions{};
   std::size_t routes = 0;   // in the store
   std::size_t backlog = 0;  // segments announced, but not on disk yet
   std::size_t agents = 0;   // present

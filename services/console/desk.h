@@ -106,7 +106,7 @@ class Desk {
   // Returns what a robot's camera sees now. Callers that look through the same camera at once share
   // the picture. Returns null if the robot did not answer. Fails with kUnavailable if too many
   // cameras are looked through at once.
-  [[nodiscard]] Result<std::shared_ptr<const exchange::Glance>> Look(const AgentId& robot);
+  [[nodiscard]] Result<std::shared_ptr<const exchange::Snapshot>> Look(const AgentId& robot);
 
   struct News {
     std::uint64_t number = 0;  // counts up from 1
@@ -126,7 +126,7 @@ class Desk {
 
  private:
   using Clock = std::chrono::steady_clock;
-  using Seen = Result<std::shared_ptr<const exchange::Glance>>;
+  using Seen = Result<std::shared_ptr<const exchange::Snapshot>>;
 
   [[nodiscard]] std::optional<Error> Unknown(const AgentId& robot);
   [[nodiscard]] Result<exchange::MissionReply> AskHistory(exchange::MissionRequest request);

@@ -26,7 +26,7 @@ class NetworkList {
   [[nodiscard]] std::string Body(const NetworkQuery& query) const;
 
  private:
-  enum class Kind { kJoint, kProposed, kCondition, kLost, kLane, kName };
+  enum class Kind { kJunction, kProposed, kCondition, kLost, kLane, kName };
   static constexpr auto kKinds = static_cast<std::size_t>(Kind::kName) + 1;
   struct Route {
     std::string name{};
@@ -36,13 +36,13 @@ class NetworkList {
   };
   // This is one line of the network, and the routes that it is about.
   struct Mark {
-    Kind kind = Kind::kJoint;
+    Kind kind = Kind::kJunction;
     std::size_t route = 0;
     std::size_t other = 0;
     std::string line{};
   };
 
-  void TakeJoint(Kind kind, const network::Joint& joint, const std::string& line);
+  void TakeJunction(Kind kind, const network::Junction& junction, const std::string& line);
   [[nodiscard]] std::optional<std::size_t> Find(const std::string& route) const;
   [[nodiscard]] std::vector<std::size_t> Matching(const std::string& search) const;
   [[nodiscard]] std::vector<std::size_t> Around(const std::string& route) const;
@@ -51,7 +51,8 @@ class NetworkList {
   std::vector<Route> routes_;  // sorted by name
   std::map<std::string, std::size_t> numbers_;
   std::vector<Mark> marks_;
-  std::size_t joints_ = 0;  // number of junctions, including those of routes that no longer exist
+  std::size_t junctions_ =
+      0;  // number of junctions, including those of routes that no longer exist
   bool whole_;
 };
 

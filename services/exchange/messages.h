@@ -301,23 +301,23 @@ struct DriveCommand {
   bool operator==(const DriveCommand&) const = default;
 };
 
-// trailcast/glance_requests asks for one snapshot of what a robot's camera sees.
-struct GlanceRequest {
+// trailcast/snapshot_requests asks for one snapshot of what a robot's camera sees.
+struct SnapshotRequest {
   AgentId agent{};  // the robot
   AgentId client{};
   std::uint64_t request = 0;
-  bool operator==(const GlanceRequest&) const = default;
+  bool operator==(const SnapshotRequest&) const = default;
 };
 
-// `trailcast/glances` has the robot's answer.
-struct Glance {
+// `trailcast/snapshots` has the robot's answer.
+struct Snapshot {
   AgentId agent{};
   AgentId client{};  // the client that asked; `request` is its request
   std::uint64_t request = 0;
   std::vector<std::uint8_t> picture{};  // JPEG; empty if there is none, and `detail` says why
   bool marked = false;                  // the features that the robot follows are drawn on it
   std::string detail{};                 // one line for people
-  bool operator==(const Glance&) const = default;
+  bool operator==(const Snapshot&) const = default;
 };
 
 // On trailcast/network_edits an operator changes how routes are joined, or closes a section. A
@@ -351,20 +351,20 @@ struct NetworkReply {
 };
 
 // Following is reported for sections of this length along a route.
-inline constexpr double kFollowedStretch_m = 5.0;
+inline constexpr double kFollowedSection_m = 5.0;
 
 // trailcast/followed tells how a follower has followed a revision since its last report.
-struct FollowedStretches {
-  struct Stretch {
+struct FollowedSections {
+  struct Section {
     std::uint32_t number = 0;  // of the section, counted along the route from 0
     std::uint32_t passed = 0;  // how often the robot passed it
     std::uint32_t lost = 0;    // how often it lost its path there, found again or not
-    bool operator==(const Stretch&) const = default;
+    bool operator==(const Section&) const = default;
   };
   AgentId agent{};
   route::RouteKey key{};
-  std::vector<Stretch> stretches{};
-  bool operator==(const FollowedStretches&) const = default;
+  std::vector<Section> sections{};
+  bool operator==(const FollowedSections&) const = default;
 };
 
 // trailcast/reach_requests asks every agent and server whom it hears.
@@ -429,8 +429,8 @@ using AnyMessage =
     std::variant<RouteAnnouncement, SegmentBatch, SegmentRequest, Receipt, CatalogRequest,
                  CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, NowCommand,
                  NowAnswer, mission::Mission, mission::Report, MissionRequest, MissionReply,
-                 DriveCommand, GlanceRequest, Glance, NetworkEdit, NetworkRequest, NetworkReply,
-                 FollowedStretches, ReachRequest, ReachReport, StoreSummary, AgentGone>;
+                 DriveCommand, SnapshotRequest, Snapshot, NetworkEdit, NetworkRequest, NetworkReply,
+                 FollowedSections, ReachRequest, ReachReport, StoreSummary, AgentGone>;
 
 // This is one of these types. One source file makes its copies; otherwise each file that hands
 // messages on would make its own for two dozen types, which dominates compile times.

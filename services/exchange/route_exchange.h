@@ -30,8 +30,8 @@ enum class Topic : std::uint8_t {
   kMissionRequests,
   kMissionReplies,
   kDrives,
-  kGlanceRequests,
-  kGlances,
+  kSnapshotRequests,
+  kSnapshots,
   kNetworkEdits,
   kNetworkRequests,
   kNetworkReplies,
@@ -73,7 +73,7 @@ struct TopicUse {
 [[nodiscard]] TopicUse SenderTopics();      // sends missions
 [[nodiscard]] TopicUse HistoryTopics();     // asks what became of missions
 [[nodiscard]] TopicUse DriverTopics();      // drives a robot that teaches
-[[nodiscard]] TopicUse GlanceTopics();      // looks through robots' cameras
+[[nodiscard]] TopicUse SnapshotTopics();    // looks through robots' cameras
 [[nodiscard]] TopicUse NetworkTopics();     // asks for paths over routes
 [[nodiscard]] TopicUse JoinerTopics();      // joins routes
 [[nodiscard]] TopicUse ReachTopics();       // asks all agents whom they hear

@@ -46,14 +46,19 @@ inline constexpr std::uint8_t kStates = 10;  // the states that a mission is kep
 [[nodiscard]] const char* ToString(State state);  // "under way"
 [[nodiscard]] bool HasEnded(State state);
 
-// A robot that cannot go on by itself reports what it waits for. A server reports it of a mission
-// that it keeps.
+// A robot that cannot go on by itself reports what it waits for, also as its mission ends. A server
+// reports it of a mission that it keeps.
 enum class WaitsFor : std::uint8_t {
   kNothing = 0,
   kWay = 1,   // another path: the robot is off the last one, or at its end
   kLane = 2,  // admission to a narrow place
   kTurn = 3,  // its turn in its robot's queue; `detail` says which mission is before it
+  // To know where it is, because it is lost: it looks for itself, or has ended its mission and has
+  // to be brought back.
+  kPlace = 4,
 };
+
+[[nodiscard]] const char* ToString(WaitsFor waits_for);  // "nothing", "path"
 
 // This is a message of trailcast/mission_states. A robot repeats it until a server has relayed it,
 // which means that it is durable. A server also reports that it keeps a mission, has dropped it or

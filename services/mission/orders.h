@@ -46,6 +46,10 @@ struct Task {
   std::vector<std::string> tags{};  // for the taught route, in any order
 };
 
+// As a robot's destination this means the nearest place that is a home, unless a place is called
+// so.
+inline constexpr std::string_view kHome = "home";
+
 // This is the destination of a robot, without the path to it.
 struct Going {
   // This is why it is sent along another path than at first.

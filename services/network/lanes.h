@@ -39,7 +39,7 @@ inline constexpr double kWaitingRoom_m = 1.0;
 
 // This is a part of a path, and the zones that a robot needs before it begins it.
 struct Leg {
-  std::vector<Stretch> stretches{};
+  std::vector<Section> sections{};
   std::set<std::size_t> lanes{};  // positions among the zones
   double through_m = 0.0;         // distance along it to the end of the last zone, with its room
 };
@@ -48,11 +48,11 @@ struct Leg {
 // the first zone that is not `open`. Zones that the path begins in, or meets within `ahead_m`, are
 // open. The leg is empty if the path begins before a zone. There is no room to wait between zones
 // that one leg needs.
-[[nodiscard]] std::vector<Leg> LegsOf(std::span<const Stretch> way, std::span<const Lane> lanes,
+[[nodiscard]] std::vector<Leg> LegsOf(std::span<const Section> way, std::span<const Lane> lanes,
                                       const std::set<std::size_t>& open = {}, double ahead_m = 0.0);
 
 // Returns the zones that a robot at the beginning of the first section is in, or comes to.
-[[nodiscard]] std::set<std::size_t> LanesOn(std::span<const Stretch> way,
+[[nodiscard]] std::set<std::size_t> LanesOn(std::span<const Section> way,
                                             std::span<const Lane> lanes);
 // Returns the zones that it is in by at least `in_m`. A robot that drives `backwards` enters them
 // at their other ends.

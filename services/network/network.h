@@ -40,12 +40,12 @@ inline constexpr double kTurnsFrom_rad = 1.0;
 
 // This is a junction, where a robot may change over from one route to another, or to another part
 // of the same one, as from the end of a ring to its beginning.
-struct Joint {
+struct Junction {
   Place from{};
   Place to{};
   bool both = false;         // also from `to` to `from`
   std::optional<Lie> lie{};  // if it is known
-  bool operator==(const Joint&) const = default;
+  bool operator==(const Junction&) const = default;
 };
 
 // This holds on a part of a route without its ends: a robot may arrive where a closed section
@@ -68,13 +68,13 @@ struct Route {
 };
 
 // This is a section of a route, driven as it was taught or backwards.
-struct Stretch {
+struct Section {
   std::string route{};
   double from_m = 0.0;
   double to_m = 0.0;      // below from_m if it is driven backwards
   double speed = 1.0;     // in multiples of the taught speed
   double turn_rad = 0.0;  // to the left, on the spot, before it is driven
-  bool operator==(const Stretch&) const = default;
+  bool operator==(const Section&) const = default;
 
   [[nodiscard]] bool backwards() const { return to_m < from_m; }
   [[nodiscard]] double length_m() const { return backwards() ? from_m - to_m : to_m - from_m; }
@@ -94,11 +94,11 @@ struct Stretch {
 inline constexpr double kSame_m = 0.05;
 
 // Tells that the second begins where the first ends, and is driven in the same direction.
-[[nodiscard]] bool GoesOn(const Stretch& before, const Stretch& next);
-[[nodiscard]] double LengthOf(std::span<const Stretch> stretches);
+[[nodiscard]] bool GoesOn(const Section& before, const Section& next);
+[[nodiscard]] double LengthOf(std::span<const Section> sections);
 
 struct Way {
-  std::vector<Stretch> stretches{};  // empty if the robot is there already
+  std::vector<Section> sections{};  // empty if the robot is there already
   double length_m = 0.0;
 };
 
@@ -118,7 +118,7 @@ class Network {
   // Conditions on routes that are not there are ignored. Returns kInvalidArgument for a junction at
   // a place that is not there, or for two routes with one id.
   [[nodiscard]] static Result<Network> Build(std::vector<Route> routes,
-                                             const std::vector<Joint>& joints,
+                                             const std::vector<Junction>& junctions,
                                              std::span<const Condition> conditions);
 
   // Returns the path of least cost: metres, times their cost, divided by the share of the speed
@@ -132,7 +132,7 @@ class Network {
   static constexpr double kBarelyIn_m = 0.5;
   // Returns the first closed part that such a robot meets from the beginning of this section to its
   // end.
-  [[nodiscard]] std::optional<Condition> FirstClosed(const Stretch& stretch) const;
+  [[nodiscard]] std::optional<Condition> FirstClosed(const Section& section) const;
   // Returns the closed part that such a robot is on, if there is one.
   [[nodiscard]] std::optional<Condition> ClosedAround(const Place& place) const;
 
@@ -186,9 +186,9 @@ class Network {
   };
 
   [[nodiscard]] Result<Spot> Find(const Place& place) const;
-  void PlaceNodes(const std::vector<Joint>& joints, std::span<const Condition> conditions);
+  void PlaceNodes(const std::vector<Junction>& junctions, std::span<const Condition> conditions);
   void Weigh(std::span<const Condition> conditions);
-  void Link(const std::vector<Joint>& joints);
+  void Link(const std::vector<Junction>& junctions);
   [[nodiscard]] Index NodeAt(const Spot& spot) const;  // the last node at or before it
   // Returns the cost of a part of what is ahead of a node.
   [[nodiscard]] double Costs(Index node, double from_m, double to_m,

@@ -12,7 +12,7 @@ namespace trailcast::network {
 // This is a route that passes at a place of another, or again at a place of its own, by a junction.
 struct Passing {
   Place at{};  // place on the passing route
-  Joint joint{};
+  Junction junction{};
   std::optional<double> confidence{};  // set if the junction is only proposed
   bool operator==(const Passing&) const = default;
 };

@@ -56,7 +56,7 @@ struct Edit {
     kRefuse
   };
   Kind kind = Kind::kJoin;
-  Joint joint{};  // of kJoin and kPart; of kConfirm and kRefuse without `all`
+  Junction junction{};  // of kJoin and kPart; of kConfirm and kRefuse without `all`
   // This is of kClose, kOpen, kBack, kAhead and kLimit. It is the section of kWide and kVacate.
   Condition condition{};
   Lane lane{};         // of kNarrow
@@ -71,20 +71,20 @@ struct Edit {
 // This is a junction that a server has found by what scouts saw, and that no operator has
 // confirmed.
 struct Proposal {
-  Joint joint{};
+  Junction junction{};
   double confidence = 0.0;  // 0.5 to 1
   bool operator==(const Proposal&) const = default;
 };
 
 // This is a section where robots lost their path lately, so that paths over it cost more.
-struct LostStretch {
+struct LostSection {
   std::string route{};
   double from_m = 0.0;
   double to_m = 0.0;    // above from_m
   double passed = 0.0;  // times; long ago counts in part
   double lost = 0.0;    // number of these
   double cost = 1.0;    // cost of a metre in metres
-  bool operator==(const LostStretch&) const = default;
+  bool operator==(const LostSection&) const = default;
 };
 
 // This is the end of a condition that ends where its route does.
@@ -101,7 +101,7 @@ struct Listed {
   std::optional<Route> route{};  // with its name and length
   std::optional<Edit> edit{};
   std::optional<Proposal> proposal{};  // "proposed join PLACE PLACE .. confidence F"
-  std::optional<LostStretch> lost{};   // "lost ROUTE FROM..TO N of M cost F"
+  std::optional<LostSection> lost{};   // "lost ROUTE FROM..TO N of M cost F"
   // These robots are in a narrow place: "narrow .., taken by robot1 robot2".
   std::vector<std::string> taken_by{};
 };
@@ -116,8 +116,6 @@ struct Goal {
   Place place{};
   bool operator==(const Goal&) const = default;
 };
-// This goal means the nearest place that is a home, unless a place is called so.
-inline constexpr std::string_view kHome = "home";
 // A name has 1 to 64 bytes without blanks and '@'.
 [[nodiscard]] Result<Goal> ParseGoal(std::string_view word);
 
@@ -132,16 +130,16 @@ struct Question {
 // Parses "hall@12" or "hall@2@12".
 [[nodiscard]] Result<Place> ParsePlace(std::string_view word);
 [[nodiscard]] std::string ToText(const Place& place);
-[[nodiscard]] std::string ToText(const Route& route);       // "route .."
-[[nodiscard]] std::string ToText(const NamedPlace& named);  // "name .."
-[[nodiscard]] std::string ToText(const Joint& joint);       // "join .."
+[[nodiscard]] std::string ToText(const Route& route);        // "route .."
+[[nodiscard]] std::string ToText(const NamedPlace& named);   // "name .."
+[[nodiscard]] std::string ToText(const Junction& junction);  // "join .."
 [[nodiscard]] std::string ToText(
     const Condition& condition);                             // "close ..", "back .." or "limit .."
 [[nodiscard]] std::string ToText(const Proposal& proposal);  // "proposed join .."
 [[nodiscard]] std::string ToText(const Lane& lane);          // "narrow .."
-[[nodiscard]] std::string ToText(const LostStretch& lost);   // "lost .."
+[[nodiscard]] std::string ToText(const LostSection& lost);   // "lost .."
 // Returns text for people: "lost hall 5..10 2 of 7 times lately, a metre counts as 1.9".
-[[nodiscard]] std::string Describe(const LostStretch& lost);
+[[nodiscard]] std::string Describe(const LostSection& lost);
 
 // Returns the conditions that hold after such an edit. Each place has at
 // most one of each kind (closed, backwards, or limited).

@@ -26,7 +26,7 @@ struct NetworkPicture {
     double length_m = 0.0;
     std::vector<Marked> marked{};
   };
-  struct Joint {
+  struct Junction {
     Place from{};
     Place to{};
     bool both = false;
@@ -38,7 +38,7 @@ struct NetworkPicture {
   };
 
   std::vector<Route> routes{};
-  std::vector<Joint> joints{};
+  std::vector<Junction> junctions{};
   std::vector<Name> names{};
 };
 

@@ -18,12 +18,12 @@ namespace trailcast::store {
 struct OwnDatabase;
 
 // A junction that was found, and an operator's verdict on it.
-struct ProposedJoint {
+struct ProposedJunction {
   enum class Verdict : std::uint8_t { kNone = 0, kRefused = 1, kTaken = 2 };
   network::Proposal proposal{};
   Verdict verdict = Verdict::kNone;
   double length_m = 0.0;  // metres that the routes share there; 0 if not known
-  bool operator==(const ProposedJoint&) const = default;
+  bool operator==(const ProposedJunction&) const = default;
 };
 
 // A mutex zone and the robot that holds it.
@@ -34,13 +34,13 @@ struct KeptLane {
 };
 
 // How often robots passed a section of a revision and lost their path there, weighed for a moment.
-struct FollowedStretch {
+struct FollowedSection {
   route::RouteKey key{};
   std::int64_t number = 0;  // its position along the route
   double passed = 0.0;
   double lost = 0.0;
   std::int64_t at_unix_ms = 0;
-  bool operator==(const FollowedStretch&) const = default;
+  bool operator==(const FollowedSection&) const = default;
 };
 
 // Keeps the network in a SQLite file of its own, created if missing: junctions, conditions on
@@ -51,7 +51,7 @@ struct FollowedStretch {
 // one).
 class NetworkStore {
  public:
-  static constexpr std::int64_t kMostJoints = 100'000;
+  static constexpr std::int64_t kMostJunctions = 100'000;
   static constexpr std::int64_t kMostConditions = 10'000;
   static constexpr std::int64_t kMostNames = 10'000;
   static constexpr std::int64_t kMostProposals = 20'000;
@@ -66,22 +66,22 @@ class NetworkStore {
   NetworkStore& operator=(const NetworkStore&) = delete;
 
   // Returns junctions in the order in which they were put.
-  [[nodiscard]] Result<std::vector<network::Joint>> Joints();
+  [[nodiscard]] Result<std::vector<network::Junction>> Junctions();
   // Conditions for driving backwards come last.
   [[nodiscard]] Result<std::vector<network::Condition>> Conditions();
   [[nodiscard]] Result<std::vector<network::NamedPlace>> Names();  // by name
-  [[nodiscard]] Result<std::vector<ProposedJoint>> Proposals();
+  [[nodiscard]] Result<std::vector<ProposedJunction>> Proposals();
   // Returns the revisions that were searched for junctions.
   [[nodiscard]] Result<std::vector<std::string>> Searched();
   [[nodiscard]] Result<std::vector<KeptLane>> Lanes();
-  [[nodiscard]] Result<std::vector<FollowedStretch>> Followed();  // the oldest first
+  [[nodiscard]] Result<std::vector<FollowedSection>> Followed();  // the oldest first
 
   // Replaces the junction from and to the same places. `by` says who decided it; the time is by the
   // caller's clock.
-  [[nodiscard]] Result<void> Put(const network::Joint& joint, const std::string& by,
+  [[nodiscard]] Result<void> Put(const network::Junction& junction, const std::string& by,
                                  std::int64_t now_unix_ms);
   // Drops the junction from and to exactly these places, if there is one.
-  [[nodiscard]] Result<void> Drop(const network::Joint& joint);
+  [[nodiscard]] Result<void> Drop(const network::Junction& junction);
   // Replaces all conditions of this route.
   [[nodiscard]] Result<void> Replace(const std::string& route,
                                      const std::vector<network::Condition>& conditions,
@@ -93,7 +93,7 @@ class NetworkStore {
   [[nodiscard]] Result<void> Forget(const std::string& name);
   // Replaces proposals from and to the same places. One that is taken becomes a junction. All or
   // nothing is put.
-  [[nodiscard]] Result<void> Put(std::span<const ProposedJoint> proposed, const std::string& by,
+  [[nodiscard]] Result<void> Put(std::span<const ProposedJunction> proposed, const std::string& by,
                                  std::int64_t now_unix_ms);
   [[nodiscard]] Result<void> MarkSearched(std::span<const std::string> revisions);
   // Adds a mutex zone and returns its number.
@@ -105,7 +105,7 @@ class NetworkStore {
   [[nodiscard]] Result<void> Release(std::span<const std::int64_t> lanes, const AgentId& agent);
   // Replaces what is kept of the same sections, all or nothing. Beyond kMostFollowed the oldest are
   // deleted.
-  [[nodiscard]] Result<void> Put(std::span<const FollowedStretch> followed);
+  [[nodiscard]] Result<void> Put(std::span<const FollowedSection> followed);
   // Drops the proposals of a revision that has left the store.
   [[nodiscard]] Result<void> DropProposals(const std::string& revision);
 

@@ -17,7 +17,7 @@
 namespace trailcast::tool {
 namespace {
 
-using joints::Part;
+using junctions::Part;
 using program::Json;
 using program::Rounded;
 
@@ -78,7 +78,7 @@ plot::ChartAxis AxisOf(const std::string& label, const std::vector<Part>& parts)
     axis.x.insert(axis.x.end(), {parts[i].begin, parts[i].end});
     if (!GoesOn(parts, i)) axis.x.push_back(parts[i].end);
   }
-  for (const Part& part : joints::Differing(parts)) {
+  for (const Part& part : junctions::Differing(parts)) {
     axis.bands.push_back({part.begin, part.end, kDiffers});
   }
   return axis;
@@ -95,7 +95,7 @@ plot::Curve CurveOf(const std::vector<Part>& parts, const std::string& label, im
   return curve;
 }
 
-std::vector<plot::StripChart> ChartsOf(const joints::Comparison& found) {
+std::vector<plot::StripChart> ChartsOf(const junctions::Comparison& found) {
   const auto density = [](auto count) -> Value {
     return [count](const Part& part) -> std::optional<double> {
       const double length = part.end - part.begin;
@@ -132,7 +132,7 @@ std::string CalledIn(const RouteDiff& diff, const route::RouteInfo& info) {
 std::string HowText(const RouteDiff& diff) {
   const std::string a = CalledIn(diff, diff.a);
   const std::string b = CalledIn(diff, diff.b);
-  const joints::Comparison& found = diff.found;
+  const junctions::Comparison& found = diff.found;
   if (found.refreshed) return fmt::format("{} has the path of {}", b, a);
   if (found.parts.empty()) return fmt::format("{} does not go the way of {}", b, a);
   return fmt::format("{} goes the way of {} for {:.1f} of its {:.1f} {}", b, a,
@@ -146,22 +146,22 @@ std::string CountText(const RouteDiff& diff) {
   };
   std::string text;
   if (!diff.found.parts.empty()) {
-    const Part all = joints::Together(diff.found.parts);
+    const Part all = junctions::Together(diff.found.parts);
     text = fmt::format("{} of {} features stayed, {} went, {} came; ", Percent(all), all.features,
                        all.went(), all.came);
   }
   return text + size(diff.a) + " and " + size(diff.b);
 }
 
-std::string StretchText(double begin, double end) {
+std::string SectionText(double begin, double end) {
   return fmt::format("{:.1f}..{:.1f}", begin, end);
 }
 
 }  // namespace
 
 std::string DiffText(const RouteDiff& diff) {
-  const joints::Comparison& found = diff.found;
-  const std::vector<Part> differing = joints::Differing(found.parts);
+  const junctions::Comparison& found = diff.found;
+  const std::vector<Part> differing = junctions::Differing(found.parts);
   std::string text;
   if (!differing.empty()) {
     text = fmt::format("{:>18}  {:>18}  {:>6}  {:>5}  {:>5}  {}\n",
@@ -171,8 +171,8 @@ std::string DiffText(const RouteDiff& diff) {
   }
   for (const Part& part : differing) {
     text +=
-        fmt::format("{:>18}  {:>18}  {:>6}  {:>5}  {:>5}  {}\n", StretchText(part.begin, part.end),
-                    StretchText(part.begin_b, part.end_b), Percent(part), part.went(), part.came,
+        fmt::format("{:>18}  {:>18}  {:>6}  {:>5}  {:>5}  {}\n", SectionText(part.begin, part.end),
+                    SectionText(part.begin_b, part.end_b), Percent(part), part.went(), part.came,
                     found.refreshed ? "0" : AsideText(part.aside_m));
   }
   if (differing.empty() && !found.parts.empty()) {
@@ -182,12 +182,14 @@ std::string DiffText(const RouteDiff& diff) {
 }
 
 Json DiffJson(const RouteDiff& diff) {
-  const joints::Comparison& found = diff.found;
-  return {
-      {"a", RouteJson(diff.a)},           {"b", RouteJson(diff.b)},
-      {"refreshed", found.refreshed},     {"unit_a", UnitOf(found.metric)},
-      {"unit_b", UnitOf(found.metric_b)}, {"differing", PartsJson(joints::Differing(found.parts))},
-      {"parts", PartsJson(found.parts)}};
+  const junctions::Comparison& found = diff.found;
+  return {{"a", RouteJson(diff.a)},
+          {"b", RouteJson(diff.b)},
+          {"refreshed", found.refreshed},
+          {"unit_a", UnitOf(found.metric)},
+          {"unit_b", UnitOf(found.metric_b)},
+          {"differing", PartsJson(junctions::Differing(found.parts))},
+          {"parts", PartsJson(found.parts)}};
 }
 
 Result<plot::Drawing> DrawDiff(const RouteDiff& diff) {
@@ -199,7 +201,7 @@ Result<plot::Drawing> DrawDiff(const RouteDiff& diff) {
   constexpr double kStripHeight_px = 150.0;
   constexpr double kAxis_px = 48.0;
   constexpr double kTextHeight_px = 11.0;
-  const joints::Comparison& found = diff.found;
+  const junctions::Comparison& found = diff.found;
   if (found.parts.empty()) return Fail(ErrorCode::kInvalidArgument, "{}", HowText(diff));
   const std::vector<plot::StripChart> charts = ChartsOf(found);
   const double strips_px = static_cast<double>(charts.size()) * (kGap_px + kStripHeight_px);

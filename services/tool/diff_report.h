@@ -4,7 +4,7 @@
 #include <string>
 
 #include "services/base/result.h"
-#include "services/joints/compare_along.h"
+#include "services/junctions/compare_along.h"
 #include "services/plot/drawing.h"
 #include "services/route/route.h"
 
@@ -14,7 +14,7 @@ namespace trailcast::tool {
 struct RouteDiff {
   route::RouteInfo a;
   route::RouteInfo b;
-  joints::Comparison found;
+  junctions::Comparison found;
 };
 
 // Returns a table of the sections that differ with a summary line. The JSON is an object that has

@@ -17,12 +17,12 @@ constexpr const char* kMainExamples =
     "  trailcast export hall                  # a route as a file, hall.trailcast\n"
     "  trailcast import hall.trailcast        # and to another route server\n"
     "  trailcast where --frame now.png        # which routes show this, and where on them\n"
-    "  trailcast joints --store server.db     # where routes come to the same place\n"
+    "  trailcast junctions --store server.db     # where routes come to the same place\n"
     "  trailcast fleet                        # robots that are heard, and how they are\n"
     "  trailcast send robot2 follow hall      # an available robot; see 'missions', too\n"
     "  trailcast network join hall@12 office@0   # routes become a network\n"
     "  trailcast send robot2 goto office@8    # the best way over it\n"
-    "  trailcast glance robot2                # what its camera sees, as a picture\n"
+    "  trailcast snapshot robot2                # what its camera sees, as a picture\n"
     "  trailcast pause robot2                 # and resume, cancel, stop, release: robots at work\n"
     "  trailcast keys init                    # who may take part, and as what: DDS Security\n"
     "  trailcast doctor                       # is this machine fit to share routes?\n"
@@ -42,7 +42,7 @@ int Run(int argc, char** argv) {
   std::vector<Command> commands{trailcast::tool::AddDemoCommand(app, common),
                                 trailcast::tool::AddTrialCommand(app),
                                 trailcast::tool::AddAlignCommand(app),
-                                trailcast::tool::AddJointsCommand(app),
+                                trailcast::tool::AddJunctionsCommand(app),
                                 trailcast::tool::AddJudgeCommand(app),
                                 trailcast::tool::AddFiguresCommand(app),
                                 trailcast::tool::AddExplainCommand(app),
@@ -52,7 +52,7 @@ int Run(int argc, char** argv) {
                                 trailcast::tool::AddWhereCommand(app, common),
                                 trailcast::tool::AddFleetCommand(app, common),
                                 trailcast::tool::AddReachCommand(app, common),
-                                trailcast::tool::AddGlanceCommand(app, common),
+                                trailcast::tool::AddSnapshotCommand(app, common),
                                 trailcast::tool::AddNetworkCommand(app, common),
                                 trailcast::tool::AddKeysCommand(app),
                                 trailcast::tool::AddDoctorCommand(app, common),

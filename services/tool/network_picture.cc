@@ -24,7 +24,7 @@ class Reader {
   void TakeEdit(const Edit& edit, bool used) {
     switch (edit.kind) {
       case Edit::Kind::kJoin:
-        return TakeJoint(edit.joint, used);
+        return TakeJunction(edit.junction, used);
       case Edit::Kind::kName:
         if (const auto at = Find(edit.named.place)) {
           picture_.names.push_back({edit.named.name, *at});
@@ -43,19 +43,19 @@ class Reader {
     }
   }
 
-  void TakeProposal(const network::Proposal& proposal) { TakeJoint(proposal.joint, false); }
+  void TakeProposal(const network::Proposal& proposal) { TakeJunction(proposal.junction, false); }
 
-  void TakeLost(const network::LostStretch& lost) {
+  void TakeLost(const network::LostSection& lost) {
     Mark(lost.route, {NetworkPicture::Part::kLost, lost.from_m, lost.to_m});
   }
 
   [[nodiscard]] NetworkPicture picture() && { return std::move(picture_); }
 
  private:
-  void TakeJoint(const network::Joint& joint, bool used) {
-    const auto from = Find(joint.from);
-    const auto to = Find(joint.to);
-    if (from && to) picture_.joints.push_back({*from, *to, joint.both, used});
+  void TakeJunction(const network::Junction& junction, bool used) {
+    const auto from = Find(junction.from);
+    const auto to = Find(junction.to);
+    if (from && to) picture_.junctions.push_back({*from, *to, junction.both, used});
   }
 
   void Mark(const std::string& name, NetworkPicture::Marked marked) {

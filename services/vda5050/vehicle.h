@@ -78,7 +78,7 @@ class Vehicle {
     fleet::Sending sending;
     Time began{};
     Time say_at{};
-    std::vector<network::Stretch> stretches{};
+    std::vector<network::Section> sections{};
     std::vector<std::uint32_t> tasks{};  // of the mission, one for each section
     std::vector<Mark> marks{};
     std::size_t on = 0;      // the section that it is on

@@ -1,11 +1,11 @@
-// How soon a scout has its receipts from a server with a large store, which looks for joints
+// How soon a scout has its receipts from a server with a large store, which looks for junctions
 // meanwhile, or does not.
 //
-//   bench_receipts FILE STORE [JOINTS]
+//   bench_receipts FILE STORE [JUNCTIONS]
 //
 // STORE's routes are taught, twenty segments a second, to a server whose store is FILE. With
-// JOINTS, the file of its network, it looks for joints of FILE's routes, those that were not looked
-// for.
+// JUNCTIONS, the file of its network, it looks for junctions of FILE's routes, those that were not
+// looked for.
 
 #include <fmt/format.h>
 
@@ -53,12 +53,12 @@ std::vector<Taught> TaughtAnew(const std::string& file) {
 
 class Bench {
  public:
-  Bench(const std::string& file, const std::string& joints)
+  Bench(const std::string& file, const std::string& junctions)
       : server_(
             Must(server::Server::Open(AgentId("server"), Must(store::OpenSqliteStore(file)),
                                       bus_.Open(program::WithAgents(exchange::ServerTopics()))))),
         scout_(bus_.Open(program::WithAgents(exchange::ScoutTopics()))) {
-    if (!joints.empty() && !server_->KeepNetwork(Must(store::NetworkStore::Open(joints)))) {
+    if (!junctions.empty() && !server_->KeepNetwork(Must(store::NetworkStore::Open(junctions)))) {
       std::abort();
     }
     serving_ = std::thread([this] { (void)server_->Run([this] { return stopping_.load(); }); });
@@ -135,7 +135,7 @@ class Bench {
 
 int Run(const std::vector<std::string>& words) {
   if (words.size() < 2 || words.size() > 3) {
-    std::cerr << "usage: bench_receipts FILE STORE [JOINTS]\n";
+    std::cerr << "usage: bench_receipts FILE STORE [JUNCTIONS]\n";
     return program::kExitUsage;
   }
   const auto taught = TaughtAnew(words[1]);

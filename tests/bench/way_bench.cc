@@ -18,20 +18,21 @@ namespace trailcast::network {
 namespace {
 
 constexpr std::size_t kRoutes = 10'000;
-constexpr std::size_t kJoints = 50'000;
+constexpr std::size_t kJunctions = 50'000;
 constexpr std::size_t kClosed = 100;
 
 class Site {
  public:
-  // `reach`: a joint leads to one of so many routes around; a site is wide, or all of it is near.
+  // `reach`: a junction leads to one of so many routes around; a site is wide, or all of it is
+  // near.
   explicit Site(std::size_t reach) {
     for (std::size_t i = 0; i < kRoutes; ++i) {
       routes_.push_back({std::to_string(i), std::to_string(i), 10.0 + Share() * 190.0});
     }
-    for (std::size_t i = 0; i < kJoints; ++i) {
+    for (std::size_t i = 0; i < kJunctions; ++i) {
       const std::size_t from = random_() % kRoutes;
       const std::size_t to = (from + 1 + random_() % reach) % kRoutes;
-      joints_.push_back({.from = On(from), .to = On(to), .both = true});
+      junctions_.push_back({.from = On(from), .to = On(to), .both = true});
     }
     for (std::size_t i = 0; i < kClosed; ++i) {
       const Place at = On(random_() % kRoutes);
@@ -40,7 +41,7 @@ class Site {
     }
   }
   [[nodiscard]] Network Made() const {
-    auto made = Network::Build(routes_, joints_, closed_);
+    auto made = Network::Build(routes_, junctions_, closed_);
     if (!made) {
       std::cerr << made.error().message << '\n';
       std::abort();
@@ -57,7 +58,7 @@ class Site {
 
   std::mt19937 random_{7};
   std::vector<Route> routes_;
-  std::vector<Joint> joints_;
+  std::vector<Junction> junctions_;
   std::vector<Condition> closed_;
 };
 
@@ -66,7 +67,7 @@ void ShortestWay(benchmark::State& state) {
   const Network network = site.Made();
   double most_ms = 0.0;
   double found = 0.0;
-  double stretches = 0.0;
+  double sections = 0.0;
   for ([[maybe_unused]] auto _ : state) {
     const Place from = site.Anywhere();
     const Place to = site.Anywhere();
@@ -75,11 +76,11 @@ void ShortestWay(benchmark::State& state) {
     most_ms = std::max(most_ms, 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
     if (!way) continue;
     found += 1.0;
-    stretches += static_cast<double>(way->stretches.size());
+    sections += static_cast<double>(way->sections.size());
   }
   state.counters["most_ms"] = most_ms;
   state.counters["found"] = found / static_cast<double>(state.iterations());
-  state.counters["stretches"] = found > 0.0 ? stretches / found : 0.0;
+  state.counters["stretches"] = found > 0.0 ? sections / found : 0.0;
 }
 BENCHMARK(ShortestWay)
     ->ArgName("reach")

@@ -125,8 +125,8 @@ TEST_F(DdsStarTest, WhoIsInAMeshDrivesARobotOfAStarAndSeesThroughItsCamera) {
     return OpenDdsExchange(options, use).value();
   };
   exchange::TopicUse desk = exchange::DriverTopics();
-  desk.write.push_back(exchange::Topic::kGlanceRequests);
-  desk.read.push_back(exchange::Topic::kGlances);
+  desk.write.push_back(exchange::Topic::kSnapshotRequests);
+  desk.read.push_back(exchange::Topic::kSnapshots);
   exchange::TopicUse duty = exchange::OnDutyTopics();
   duty.read.push_back(exchange::Topic::kDrives);
   const auto server = Server();
@@ -140,10 +140,10 @@ TEST_F(DdsStarTest, WhoIsInAMeshDrivesARobotOfAStarAndSeesThroughItsCamera) {
   Names seen_by;
   const auto say = [&](RouteExchange& from, const std::string& name) {
     (void)from.Publish(exchange::DriveCommand{AgentId("robot"), AgentId(name), 0.3, 0.0, ++words});
-    (void)from.Publish(exchange::GlanceRequest{AgentId("robot"), AgentId(name), words});
+    (void)from.Publish(exchange::SnapshotRequest{AgentId("robot"), AgentId(name), words});
     for (const Message& message : from.Take(milliseconds(5))) {
-      const auto* glance = std::get_if<exchange::Glance>(&message);
-      if (glance != nullptr && !glance->picture.empty()) seen_by.insert(name);
+      const auto* snapshot = std::get_if<exchange::Snapshot>(&message);
+      if (snapshot != nullptr && !snapshot->picture.empty()) seen_by.insert(name);
     }
   };
   EXPECT_TRUE(Until({server.get(), starred.get()}, [&] {
@@ -152,13 +152,13 @@ TEST_F(DdsStarTest, WhoIsInAMeshDrivesARobotOfAStarAndSeesThroughItsCamera) {
     for (const Message& message : robot->Take(milliseconds(5))) {
       if (const auto* word = std::get_if<exchange::DriveCommand>(&message)) {
         drivers.insert(word->client.value());
-      } else if (const auto* request = std::get_if<exchange::GlanceRequest>(&message)) {
+      } else if (const auto* request = std::get_if<exchange::SnapshotRequest>(&message)) {
         lookers.insert(request->client.value());
-        (void)robot->Publish(exchange::Glance{.agent = request->agent,
-                                              .client = request->client,
-                                              .request = request->request,
-                                              .picture = {0xFF, 0xD8},
-                                              .detail = "seen"});
+        (void)robot->Publish(exchange::Snapshot{.agent = request->agent,
+                                                .client = request->client,
+                                                .request = request->request,
+                                                .picture = {0xFF, 0xD8},
+                                                .detail = "seen"});
       }
     }
     return !drivers.empty() && !seen_by.empty() && starred->hears() == Names{"server"};

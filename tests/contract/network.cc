@@ -76,10 +76,10 @@ Message ProbeFor(Topic topic) {
       return exchange::MissionReply{.server = kProbe, .client = kProbe};
     case Topic::kDrives:
       return exchange::DriveCommand{.agent = kProbe, .client = kProbe};
-    case Topic::kGlanceRequests:
-      return exchange::GlanceRequest{.agent = kProbe, .client = kProbe};
-    case Topic::kGlances:
-      return exchange::Glance{.agent = kProbe, .client = kProbe};
+    case Topic::kSnapshotRequests:
+      return exchange::SnapshotRequest{.agent = kProbe, .client = kProbe};
+    case Topic::kSnapshots:
+      return exchange::Snapshot{.agent = kProbe, .client = kProbe};
     case Topic::kNetworkEdits:
       return exchange::NetworkEdit{.client = kProbe};
     case Topic::kNetworkRequests:
@@ -87,7 +87,7 @@ Message ProbeFor(Topic topic) {
     case Topic::kNetworkReplies:
       return exchange::NetworkReply{.server = kProbe, .client = kProbe};
     case Topic::kFollowed:
-      return exchange::FollowedStretches{.agent = kProbe, .key = key};
+      return exchange::FollowedSections{.agent = kProbe, .key = key};
     case Topic::kReachRequests:
       return exchange::ReachRequest{.client = kProbe};
     case Topic::kReachReports:
@@ -123,12 +123,12 @@ bool IsProbe(const Message& message) {
     AgentId operator()(const exchange::MissionRequest& m) { return m.client; }
     AgentId operator()(const exchange::MissionReply& m) { return m.server; }
     AgentId operator()(const exchange::DriveCommand& m) { return m.client; }
-    AgentId operator()(const exchange::GlanceRequest& m) { return m.client; }
-    AgentId operator()(const exchange::Glance& m) { return m.agent; }
+    AgentId operator()(const exchange::SnapshotRequest& m) { return m.client; }
+    AgentId operator()(const exchange::Snapshot& m) { return m.agent; }
     AgentId operator()(const exchange::NetworkEdit& m) { return m.client; }
     AgentId operator()(const exchange::NetworkRequest& m) { return m.client; }
     AgentId operator()(const exchange::NetworkReply& m) { return m.server; }
-    AgentId operator()(const exchange::FollowedStretches& m) { return m.agent; }
+    AgentId operator()(const exchange::FollowedSections& m) { return m.agent; }
     AgentId operator()(const exchange::ReachRequest& m) { return m.client; }
     AgentId operator()(const exchange::ReachReport& m) { return m.agent; }
     AgentId operator()(const exchange::StoreSummary& m) { return m.server; }

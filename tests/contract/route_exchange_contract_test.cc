@@ -205,16 +205,16 @@ TEST_P(RouteExchangeContract, CarriesHowARobotIsDriven) {
                   Topic::kDrives);
 }
 
-TEST_P(RouteExchangeContract, CarriesTheLargestGlance) {
-  ExpectRoundTrip(exchange::GlanceRequest{AgentId("r"), AgentId("o"), ~0ULL},
-                  Topic::kGlanceRequests);
-  ExpectRoundTrip(exchange::Glance{.agent = AgentId("r"),
-                                   .client = AgentId("o"),
-                                   .request = ~0ULL,
-                                   .picture = std::vector<std::uint8_t>(exchange::kMaxGlanceBytes,
-                                                                        std::uint8_t{0xA5}),
-                                   .marked = true},
-                  Topic::kGlances);
+TEST_P(RouteExchangeContract, CarriesTheLargestSnapshot) {
+  ExpectRoundTrip(exchange::SnapshotRequest{AgentId("r"), AgentId("o"), ~0ULL},
+                  Topic::kSnapshotRequests);
+  ExpectRoundTrip(exchange::Snapshot{.agent = AgentId("r"),
+                                     .client = AgentId("o"),
+                                     .request = ~0ULL,
+                                     .picture = std::vector<std::uint8_t>(
+                                         exchange::kMaxSnapshotBytes, std::uint8_t{0xA5}),
+                                     .marked = true},
+                  Topic::kSnapshots);
 }
 
 TEST_P(RouteExchangeContract, CarriesWhoHearsWhom) {
@@ -259,7 +259,7 @@ TEST_P(RouteExchangeContract, CarriesWhatBecameOfAMission) {
                                   .state = mission::State::kExpired,
                                   .task = ~0U,
                                   .way = ~0U,
-                                  .waits_for = mission::WaitsFor::kLane,
+                                  .waits_for = mission::WaitsFor::kPlace,
                                   .detail = std::string(kMaxLineBytes, 'd'),
                                   .relayed = true},
                   Topic::kMissionStates);
@@ -279,14 +279,14 @@ TEST_P(RouteExchangeContract, CarriesWordsOfTheNetwork) {
                   Topic::kNetworkReplies);
 }
 
-TEST_P(RouteExchangeContract, CarriesHowStretchesWereFollowed) {
+TEST_P(RouteExchangeContract, CarriesHowSectionsWereFollowed) {
   constexpr std::uint32_t kMost = exchange::kMaxTimesPassed;
   ExpectRoundTrip(
-      exchange::FollowedStretches{
+      exchange::FollowedSections{
           .agent = AgentId("r"),
           .key = KeyNumber(1),
-          .stretches = std::vector(exchange::kMaxStretchesTold,
-                                   exchange::FollowedStretches::Stretch{7, kMost, kMost})},
+          .sections = std::vector(exchange::kMaxSectionsTold,
+                                  exchange::FollowedSections::Section{7, kMost, kMost})},
       Topic::kFollowed);
 }
 
@@ -439,7 +439,7 @@ TEST_P(RouteExchangeContract, RefusesMessagesOutOfBounds) {
       SegmentBatch{AgentId("a"), {test::PieceOf(KeyNumber(1), 0, kMaxPieceBytes + 1)}},
       SegmentRequest{AgentId("a"), {RouteId("short"), TeachingId(1)}, {}},
       mission::Report{
-          .agent = AgentId("a"), .mission = "m", .waits_for = static_cast<mission::WaitsFor>(3)},
+          .agent = AgentId("a"), .mission = "m", .waits_for = static_cast<mission::WaitsFor>(5)},
       CatalogRequest{AgentId("not a name"), 0, {}}};
   for (const Message& message : refused) {
     const auto result = writer->Publish(message);

@@ -27,7 +27,7 @@ std::string RouteFor(const std::string& name) {
 }
 
 struct Made {
-  std::vector<network::Joint> joints;
+  std::vector<network::Junction> junctions;
   std::vector<network::Condition> conditions;
 };
 
@@ -38,11 +38,11 @@ bool IsOfACondition(const network::Edit& edit) {
 
 void Take(network::Edit edit, Made& made) {
   if (edit.kind == network::Edit::Kind::kJoin) {
-    for (network::Place* place : {&edit.joint.from, &edit.joint.to}) {
+    for (network::Place* place : {&edit.junction.from, &edit.junction.to}) {
       place->route = RouteFor(place->route);
       if (place->along_m > 20.0) place->along_m = std::fmod(place->along_m, 10.0);
     }
-    made.joints.push_back(edit.joint);
+    made.junctions.push_back(edit.junction);
   } else if (IsOfACondition(edit)) {
     edit.condition.route = RouteFor(edit.condition.route);
     made.conditions = network::Amended(std::move(made.conditions), edit);
@@ -69,9 +69,9 @@ void Understand(const std::string& line, Made& made) {
   (void)network::ParseQuestion(line);
   if (const auto proposal = network::ParseListed(line).proposal) {
     const std::string told = network::ToText(*proposal);
-    const auto& joint = proposal->joint;
+    const auto& junction = proposal->junction;
     // To the centimetre.
-    if (network::ToText(joint.from) == network::ToText(joint.to)) return;
+    if (network::ToText(junction.from) == network::ToText(junction.to)) return;
     const auto again = network::ParseListed(told).proposal;
     Require(again && network::ToText(*again) == told, "a proposal is understood again");
   }
@@ -88,7 +88,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Understand(text.substr(at, end - at), made);
     at = end + 1;
   }
-  const auto built = network::Network::Build(Routes(), made.joints, made.conditions);
+  const auto built = network::Network::Build(Routes(), made.junctions, made.conditions);
   if (!built) return 0;
   for (const network::Route& from : Routes()) {
     for (const network::Route& to : Routes()) {
@@ -96,8 +96,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           built->ShortestWay({from.id, from.length_m / 3.0}, {to.id, to.length_m / 2.0});
       if (!way) continue;
       Require(way->length_m >= 0.0, "a way is no less than nothing");
-      for (const network::Stretch& stretch : way->stretches) {
-        Require(stretch.from_m < stretch.to_m && stretch.speed > 0.0, "a stretch leads ahead");
+      for (const network::Section& section : way->sections) {
+        Require(section.from_m < section.to_m && section.speed > 0.0, "a section leads ahead");
       }
     }
   }

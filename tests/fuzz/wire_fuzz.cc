@@ -158,12 +158,12 @@ class Samples {
     wire.turn_radps = Real();
     wire.sent_ms = input_.ConsumeIntegral<std::uint64_t>();
   }
-  void Fill(trailcast_wire_GlanceRequest& wire) {
+  void Fill(trailcast_wire_SnapshotRequest& wire) {
     wire.agent = Name();
     wire.client = Name();
     wire.request = input_.ConsumeIntegral<std::uint64_t>();
   }
-  void Fill(trailcast_wire_Glance& wire) {
+  void Fill(trailcast_wire_Snapshot& wire) {
     wire.agent = Name();
     wire.client = Name();
     wire.request = input_.ConsumeIntegral<std::uint64_t>();
@@ -209,14 +209,13 @@ class Samples {
     wire.followers._length = Count();
     wire.followers._buffer = Many<trailcast_wire_RouteFollower>(followers_, wire.followers._length);
   }
-  void Fill(trailcast_wire_FollowedStretches& wire) {
+  void Fill(trailcast_wire_FollowedSections& wire) {
     wire.agent = Name();
     Fill(wire.on);
-    wire.stretches._length = Count();
-    wire.stretches._buffer =
-        Many<trailcast_wire_FollowedStretch>(stretches_, wire.stretches._length);
+    wire.sections._length = Count();
+    wire.sections._buffer = Many<trailcast_wire_FollowedSection>(sections_, wire.sections._length);
   }
-  void Fill(trailcast_wire_FollowedStretch& wire) {
+  void Fill(trailcast_wire_FollowedSection& wire) {
     wire.number = input_.ConsumeIntegral<std::uint32_t>();
     wire.passed = input_.ConsumeIntegral<std::uint32_t>();
     wire.lost = input_.ConsumeIntegral<std::uint32_t>();
@@ -447,7 +446,7 @@ class Samples {
   std::deque<std::vector<trailcast_wire_ViewFeature>> view_;
   std::deque<std::vector<trailcast_wire_ClaimedName>> claimed_;
   std::deque<std::vector<trailcast_wire_RouteFollower>> followers_;
-  std::deque<std::vector<trailcast_wire_FollowedStretch>> stretches_;
+  std::deque<std::vector<trailcast_wire_FollowedSection>> sections_;
   std::deque<std::vector<trailcast_wire_MissionRecord>> missions_;
   std::deque<std::vector<trailcast_wire_GivenCommand>> commands_;
   std::deque<std::vector<trailcast_wire_NowAnswer>> answers_;
@@ -546,11 +545,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case Topic::kDrives:
       FillAndTakeIn<trailcast_wire_DriveCommand>(topic, input);
       break;
-    case Topic::kGlanceRequests:
-      FillAndTakeIn<trailcast_wire_GlanceRequest>(topic, input);
+    case Topic::kSnapshotRequests:
+      FillAndTakeIn<trailcast_wire_SnapshotRequest>(topic, input);
       break;
-    case Topic::kGlances:
-      FillAndTakeIn<trailcast_wire_Glance>(topic, input);
+    case Topic::kSnapshots:
+      FillAndTakeIn<trailcast_wire_Snapshot>(topic, input);
       break;
     case Topic::kNetworkEdits:
       FillAndTakeIn<trailcast_wire_NetworkEdit>(topic, input);
@@ -562,7 +561,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       FillAndTakeIn<trailcast_wire_NetworkReply>(topic, input);
       break;
     case Topic::kFollowed:
-      FillAndTakeIn<trailcast_wire_FollowedStretches>(topic, input);
+      FillAndTakeIn<trailcast_wire_FollowedSections>(topic, input);
       break;
     case Topic::kReachRequests:
       FillAndTakeIn<trailcast_wire_ReachRequest>(topic, input);

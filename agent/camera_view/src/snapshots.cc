@@ -84,7 +84,7 @@ void Snapshots::HandOver(Item item) {
 }
 
 void Snapshots::Serve(exchange::RouteExchange& exchange, Time now) {
-  std::optional<exchange::Glance> answer;
+  std::optional<exchange::Snapshot> answer;
   while (auto picture = pictures_.TryGet()) {
     if (auto given = handler_.Give(*std::move(picture), now)) answer = std::move(given);
   }

@@ -68,7 +68,7 @@ exchange::TopicUse TeachingToo(exchange::TopicUse use) {
 // Adds the topics of a robot whose camera others look through: it hears their requests and answers
 // them.
 exchange::TopicUse WithSnapshots(exchange::TopicUse use) {
-  const exchange::TopicUse theirs = exchange::GlanceTopics();
+  const exchange::TopicUse theirs = exchange::SnapshotTopics();
   use.read.insert(use.read.end(), theirs.write.begin(), theirs.write.end());
   use.write_rarely.insert(use.write_rarely.end(), theirs.read.begin(), theirs.read.end());
   return use;

@@ -75,7 +75,8 @@ class Duty {
   void Deliver();
   void Judge(const Result<ReplayOutcome>& outcome);
   void Done(const std::string& what = {});
-  void End(State state, const std::string& why);
+  void End(State state, const std::string& why,
+           mission::WaitsFor waits_for = mission::WaitsFor::kNothing);
 
   RobotDevice& device_;
   const OnDutyOptions& options_;

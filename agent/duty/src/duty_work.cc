@@ -316,7 +316,9 @@ void Duty::Relocalise() {
     relocalisation_.End();
     return Judge(*outcome);
   }
-  if (relocalisation_.NotThere()) End(State::kFailed, relocalisation_.Lost());
+  if (relocalisation_.NotThere()) {
+    End(State::kFailed, relocalisation_.Lost(), mission::WaitsFor::kPlace);
+  }
 }
 
 // A server gets the revision while the robot is free.
@@ -417,7 +419,9 @@ void Duty::Judge(const Result<ReplayOutcome>& outcome) {
              (outcome->error && outcome->error->code == ErrorCode::kNotFound)) {
     End(State::kRefused, outcome->reason);
   } else {
-    End(State::kFailed, fmt::format("{}: {}", outcome->state, outcome->reason));
+    const bool is_lost = outcome->end == RunEnd::kLost;
+    End(State::kFailed, fmt::format("{}: {}", outcome->state, outcome->reason),
+        is_lost ? mission::WaitsFor::kPlace : mission::WaitsFor::kNothing);
   }
 }
 
@@ -431,10 +435,10 @@ void Duty::Done(const std::string& what) {
   }
 }
 
-void Duty::End(State state, const std::string& why) {
+void Duty::End(State state, const std::string& why, mission::WaitsFor waits_for) {
   last_ = fmt::format("mission {}: {}{}{}", mission_handler_.current()->mission.id,
                       mission::ToString(state), why.empty() ? "" : ": ", why);
-  mission_handler_.Tell(state, why);
+  mission_handler_.Tell(state, why, waits_for);
   told_.reset();
   relocalisation_.Reset();
   missed_.clear();

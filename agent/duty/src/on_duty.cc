@@ -148,7 +148,8 @@ void Duty::SawStatus(const exchange::AgentStatus& status) {
     TellState(State::kPaused, now_handler_.hold().text);
   } else if (relocalisation_.looks()) {
     TellState(State::kFetching,
-              fmt::format("{}; looks whether it is on {}", relocalisation_.Lost(), on_route_));
+              fmt::format("{}; looks whether it is on {}", relocalisation_.Lost(), on_route_),
+              mission::WaitsFor::kPlace);
   } else if (status.mode == exchange::AgentMode::kReplaying ||
              status.mode == exchange::AgentMode::kTeaching) {
     was_under_way_ = true;

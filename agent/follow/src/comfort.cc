@@ -29,22 +29,22 @@ double ComfortableShare(const route::Terrain& terrain) {
 
 void Comfort::Add(const route::Segment& segment) {
   const double begin_m =
-      stretches_.empty() ? 0.0 : stretches_.back().begin_m + stretches_.back().length_m;
+      sections_.empty() ? 0.0 : sections_.back().begin_m + sections_.back().length_m;
   const double share = ComfortableShare(segment.terrain);
   const double speed_mps = segment.has_odometry ? share * segment.speed_mps() : 0.0;
-  stretches_.push_back({begin_m, segment.length_m, speed_mps, share});
+  sections_.push_back({begin_m, segment.length_m, speed_mps, share});
 }
 
 // The robot brakes gently to reach rough ground at its speed.
 double Comfort::MostMps(double along_m, double speed_mps, std::size_t segment) const {
   double most_mps = speed_mps;
-  const bool metric = stretches_[segment].speed_mps > 0.0;
-  for (std::size_t i = segment; i < stretches_.size(); ++i) {
-    const Stretch& stretch = stretches_[i];
-    const double left_m = std::max(0.0, stretch.begin_m - along_m);
+  const bool metric = sections_[segment].speed_mps > 0.0;
+  for (std::size_t i = segment; i < sections_.size(); ++i) {
+    const Section& section = sections_[i];
+    const double left_m = std::max(0.0, section.begin_m - along_m);
     if (metric ? left_m > kAhead_m : i > segment + 1) break;
-    if (stretch.share >= 1.0) continue;
-    const double there_mps = metric ? stretch.speed_mps : stretch.share * speed_mps;
+    if (section.share >= 1.0) continue;
+    const double there_mps = metric ? section.speed_mps : section.share * speed_mps;
     most_mps = std::min(most_mps, std::sqrt(there_mps * there_mps +
                                             (metric ? 2.0 * kDeceleration_mps2 * left_m : 0.0)));
   }
@@ -54,8 +54,8 @@ double Comfort::MostMps(double along_m, double speed_mps, std::size_t segment) c
 ReplayStep Comfort::Apply(ReplayStep step) const {
   const std::size_t segment = step.segment.value();
   const double speed_mps = std::abs(step.command.linear_mps);
-  if (!wanted_ || speed_mps <= 0.0 || segment >= stretches_.size()) return step;
-  const Stretch& here = stretches_[segment];
+  if (!wanted_ || speed_mps <= 0.0 || segment >= sections_.size()) return step;
+  const Section& here = sections_[segment];
   const double along_m = step.along_m.value_or(here.begin_m + step.fraction * here.length_m);
   const double share = MostMps(along_m, speed_mps, segment) / speed_mps;
   step.command.linear_mps *= share;

@@ -12,7 +12,7 @@
 namespace trailcast::agent {
 namespace {
 
-using exchange::FollowedStretches;
+using exchange::FollowedSections;
 
 enum class OnPath { kSure, kUnsure, kLost, kNotSaid };
 
@@ -40,10 +40,10 @@ OnPath OnPathIn(const ReplayStep& step) {
 
 // A robot a little beyond the end of a route is on its last section.
 std::uint32_t NumberAt(double along_m, const route::RouteInfo& route) {
-  double number = std::floor(std::max(0.0, along_m) / exchange::kFollowedStretch_m);
+  double number = std::floor(std::max(0.0, along_m) / exchange::kFollowedSection_m);
   if (route.state == route::RouteState::kComplete && route.length_m > 0.0) {
-    const double stretches = std::ceil(route.length_m / exchange::kFollowedStretch_m);
-    number = std::min(number, stretches - 1.0);
+    const double sections = std::ceil(route.length_m / exchange::kFollowedSection_m);
+    number = std::min(number, sections - 1.0);
   }
   return static_cast<std::uint32_t>(number);
 }
@@ -113,26 +113,26 @@ void FollowedNote::TellIfDue(exchange::RouteExchange& to, Clock::time_point now)
 }
 
 std::vector<exchange::Message> FollowedNote::Take() {
-  std::map<route::RouteKey, FollowedStretches> told;
+  std::map<route::RouteKey, FollowedSections> told;
   std::vector<exchange::Message> messages;
   for (const auto& [where, count] : counts_) {
-    FollowedStretches& of = told[where.first];
+    FollowedSections& of = told[where.first];
     of.agent = agent_;
     of.key = where.first;
-    of.stretches.push_back({where.second, count.passed, count.lost});
-    if (of.stretches.size() < exchange::kMaxStretchesTold) continue;
+    of.sections.push_back({where.second, count.passed, count.lost});
+    if (of.sections.size() < exchange::kMaxSectionsTold) continue;
     messages.emplace_back(std::move(of));
     told.erase(where.first);
   }
   for (auto& [key, of] : told) messages.emplace_back(std::move(of));
-  counts_ = NewestMap<Where, Count>(kMostStretches);
+  counts_ = NewestMap<Where, Count>(kMostSections);
   return messages;
 }
 
 void FollowedNote::NotSent(const exchange::Message& message) {
-  const auto* told = std::get_if<FollowedStretches>(&message);
+  const auto* told = std::get_if<FollowedSections>(&message);
   if (told == nullptr) return;
-  for (const FollowedStretches::Stretch& each : told->stretches) {
+  for (const FollowedSections::Section& each : told->sections) {
     Add({told->key, each.number}, {.passed = each.passed, .lost = each.lost});
   }
 }

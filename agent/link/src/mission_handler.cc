@@ -65,7 +65,7 @@ Result<void> MissionHandler::Load() {
       numbers.push_back(*number);
     }
     const bool known = numbers[2] < mission::kStates &&
-                       numbers[5] <= static_cast<std::uint32_t>(mission::WaitsFor::kLane);
+                       numbers[5] <= static_cast<std::uint32_t>(mission::WaitsFor::kPlace);
     if (!known || Find(fields[0]) != nullptr) return wrong();
     kept_.push_back({.mission = {.agent = self_,
                                  .id = fields[0],

@@ -9,7 +9,7 @@
 namespace trailcast::agent {
 
 void SnapshotHandler::Handle(const exchange::Message& message, Time now) {
-  const auto* request = std::get_if<exchange::GlanceRequest>(&message);
+  const auto* request = std::get_if<exchange::SnapshotRequest>(&message);
   if (request == nullptr || request->agent != self_) return;
   Forget(now);
   const auto before = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
@@ -39,18 +39,18 @@ bool SnapshotHandler::Asks(Time now) {
 
 bool SnapshotHandler::AskedInVain(Time now) const { return asked_ && now - *asked_at_ > kPatience; }
 
-std::optional<exchange::Glance> SnapshotHandler::Give(CameraPicture picture, Time now) {
+std::optional<exchange::Snapshot> SnapshotHandler::Give(CameraPicture picture, Time now) {
   Forget(now);
   if (!asked_) return std::nullopt;
   asked_ = false;
-  const exchange::GlanceRequest request = waiting_.front().request;
+  const exchange::SnapshotRequest request = waiting_.front().request;
   waiting_.pop_front();
-  return exchange::Glance{.agent = self_,
-                          .client = request.client,
-                          .request = request.request,
-                          .picture = std::move(picture.jpeg),
-                          .marked = picture.marked,
-                          .detail = PlainText(picture.detail, exchange::kMaxLineBytes)};
+  return exchange::Snapshot{.agent = self_,
+                            .client = request.client,
+                            .request = request.request,
+                            .picture = std::move(picture.jpeg),
+                            .marked = picture.marked,
+                            .detail = PlainText(picture.detail, exchange::kMaxLineBytes)};
 }
 
 }  // namespace trailcast::agent

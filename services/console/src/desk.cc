@@ -27,9 +27,9 @@ constexpr std::uint32_t kRevisionsAsked = 100;
 
 exchange::TopicUse ConsoleTopics() {
   return {.write = {Topic::kNow, Topic::kMissions, Topic::kMissionRequests, Topic::kCatalogRequests,
-                    Topic::kRouteEdits, Topic::kDrives, Topic::kGlanceRequests,
+                    Topic::kRouteEdits, Topic::kDrives, Topic::kSnapshotRequests,
                     Topic::kNetworkEdits, Topic::kNetworkRequests},
-          .read = {Topic::kGlances, Topic::kNowAnswers, Topic::kMissionStates,
+          .read = {Topic::kSnapshots, Topic::kNowAnswers, Topic::kMissionStates,
                    Topic::kMissionReplies, Topic::kCatalogReplies, Topic::kNetworkReplies},
           // These are repeated all the time, and acknowledging each would cost the radio as much
           // again.
@@ -37,9 +37,9 @@ exchange::TopicUse ConsoleTopics() {
 }
 
 exchange::TopicUse LookingTopics() {
-  return {.write = {Topic::kMissionRequests, Topic::kCatalogRequests, Topic::kGlanceRequests,
+  return {.write = {Topic::kMissionRequests, Topic::kCatalogRequests, Topic::kSnapshotRequests,
                     Topic::kNetworkRequests},
-          .read = {Topic::kMissionReplies, Topic::kCatalogReplies, Topic::kGlances,
+          .read = {Topic::kMissionReplies, Topic::kCatalogReplies, Topic::kSnapshots,
                    Topic::kNetworkReplies},
           .overhear = {Topic::kAgents}};
 }

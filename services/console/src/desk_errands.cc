@@ -327,7 +327,7 @@ Result<http::MetricsText> Desk::Measure() {
   return text;
 }
 
-Result<std::shared_ptr<const exchange::Glance>> Desk::Look(const AgentId& robot) {
+Result<std::shared_ptr<const exchange::Snapshot>> Desk::Look(const AgentId& robot) {
   const std::shared_future<Seen> future = LookUnderWay(robot);
   return future.valid() ? Await(future, LookErrand::kTimeout) : TooMuch();
 }

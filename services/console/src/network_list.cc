@@ -44,7 +44,7 @@ NetworkList::NetworkList(const std::vector<std::string>& lines, bool whole) : wh
   for (std::size_t i = 0; i < routes_.size(); ++i) numbers_.emplace(routes_[i].name, i);
 
   for (const auto& [line, listed] : marks) {
-    if (listed.proposal) TakeJoint(Kind::kProposed, listed.proposal->joint, *line);
+    if (listed.proposal) TakeJunction(Kind::kProposed, listed.proposal->junction, *line);
     if (listed.lost) {
       if (const auto at = Find(listed.lost->route))
         marks_.push_back({Kind::kLost, *at, *at, *line});
@@ -52,8 +52,8 @@ NetworkList::NetworkList(const std::vector<std::string>& lines, bool whole) : wh
     if (!listed.edit) continue;
     const Edit& edit = *listed.edit;
     if (edit.kind == Edit::Kind::kJoin) {
-      ++joints_;
-      TakeJoint(Kind::kJoint, edit.joint, *line);
+      ++junctions_;
+      TakeJunction(Kind::kJunction, edit.junction, *line);
       continue;
     }
     if (edit.kind == Edit::Kind::kNarrow) {
@@ -72,12 +72,13 @@ NetworkList::NetworkList(const std::vector<std::string>& lines, bool whole) : wh
   }
 }
 
-void NetworkList::TakeJoint(Kind kind, const network::Joint& joint, const std::string& line) {
-  const auto from = Find(joint.from.route);
-  const auto to = Find(joint.to.route);
+void NetworkList::TakeJunction(Kind kind, const network::Junction& junction,
+                               const std::string& line) {
+  const auto from = Find(junction.from.route);
+  const auto to = Find(junction.to.route);
   if (!from || !to) return;
   marks_.push_back({kind, *from, *to, line});
-  if (*from == *to || kind != Kind::kJoint) return;
+  if (*from == *to || kind != Kind::kJunction) return;
   routes_[*from].joined.push_back(*to);
   routes_[*to].joined.push_back(*from);
 }
@@ -119,7 +120,7 @@ std::vector<std::size_t> NetworkList::WithMet(const std::string& route) const {
   if (at == numbers_.end()) return {};
   std::vector<std::size_t> found{at->second};
   for (const Mark& mark : marks_) {
-    if (mark.kind != Kind::kJoint && mark.kind != Kind::kProposed) continue;
+    if (mark.kind != Kind::kJunction && mark.kind != Kind::kProposed) continue;
     if (mark.route != at->second && mark.other != at->second) continue;
     const std::size_t other = mark.route == at->second ? mark.other : mark.route;
     if (std::find(found.begin(), found.end(), other) == found.end()) found.push_back(other);
@@ -145,7 +146,7 @@ std::string NetworkList::Body(const NetworkQuery& query) const {
   for (const Mark& mark : marks_) {
     if (!shown[mark.route] && !shown[mark.other]) continue;
     if (!shown[mark.route] || !shown[mark.other]) {
-      if (mark.kind == Kind::kJoint) ++elsewhere[shown[mark.route] ? mark.route : mark.other];
+      if (mark.kind == Kind::kJunction) ++elsewhere[shown[mark.route] ? mark.route : mark.other];
     } else if (++marks[static_cast<std::size_t>(mark.kind)] > kMostMarks) {
       ++left_out;
     } else {
@@ -160,7 +161,7 @@ std::string NetworkList::Body(const NetworkQuery& query) const {
                            {"elsewhere", std::move(counts)},
                            {"matched", matched},
                            {"routes", routes_.size()},
-                           {"joints", joints_},
+                           {"joints", junctions_},
                            {"left_out", left_out},
                            {"whole", whole_}});
 }

@@ -350,20 +350,20 @@ Message From(const trailcast_wire_DriveCommand& wire) {
                       .sent_ms = wire.sent_ms};
 }
 
-Message From(const trailcast_wire_GlanceRequest& wire) {
-  return GlanceRequest{.agent = AgentId(Text(wire.agent)),
-                       .client = AgentId(Text(wire.client)),
-                       .request = wire.request};
+Message From(const trailcast_wire_SnapshotRequest& wire) {
+  return SnapshotRequest{.agent = AgentId(Text(wire.agent)),
+                         .client = AgentId(Text(wire.client)),
+                         .request = wire.request};
 }
 
-Message From(const trailcast_wire_Glance& wire) {
+Message From(const trailcast_wire_Snapshot& wire) {
   const auto picture = Elements(wire.picture);
-  return Glance{.agent = AgentId(Text(wire.agent)),
-                .client = AgentId(Text(wire.client)),
-                .request = wire.request,
-                .picture = {picture.begin(), picture.end()},
-                .marked = wire.marked != 0,
-                .detail = Text(wire.detail)};
+  return Snapshot{.agent = AgentId(Text(wire.agent)),
+                  .client = AgentId(Text(wire.client)),
+                  .request = wire.request,
+                  .picture = {picture.begin(), picture.end()},
+                  .marked = wire.marked != 0,
+                  .detail = Text(wire.detail)};
 }
 
 Message From(const trailcast_wire_NetworkEdit& wire) {
@@ -387,10 +387,10 @@ Message From(const trailcast_wire_NetworkReply& wire) {
                       .error = Text(wire.error)};
 }
 
-Message From(const trailcast_wire_FollowedStretches& wire) {
-  FollowedStretches all{.agent = AgentId(Text(wire.agent)), .key = From(wire.on)};
-  for (const trailcast_wire_FollowedStretch& each : Elements(wire.stretches)) {
-    all.stretches.push_back({.number = each.number, .passed = each.passed, .lost = each.lost});
+Message From(const trailcast_wire_FollowedSections& wire) {
+  FollowedSections all{.agent = AgentId(Text(wire.agent)), .key = From(wire.on)};
+  for (const trailcast_wire_FollowedSection& each : Elements(wire.sections)) {
+    all.sections.push_back({.number = each.number, .passed = each.passed, .lost = each.lost});
   }
   return all;
 }
@@ -483,10 +483,10 @@ Message Copy(Topic topic, const void* sample) {
       return From(*static_cast<const trailcast_wire_MissionReply*>(sample));
     case Topic::kDrives:
       return From(*static_cast<const trailcast_wire_DriveCommand*>(sample));
-    case Topic::kGlanceRequests:
-      return From(*static_cast<const trailcast_wire_GlanceRequest*>(sample));
-    case Topic::kGlances:
-      return From(*static_cast<const trailcast_wire_Glance*>(sample));
+    case Topic::kSnapshotRequests:
+      return From(*static_cast<const trailcast_wire_SnapshotRequest*>(sample));
+    case Topic::kSnapshots:
+      return From(*static_cast<const trailcast_wire_Snapshot*>(sample));
     case Topic::kNetworkEdits:
       return From(*static_cast<const trailcast_wire_NetworkEdit*>(sample));
     case Topic::kNetworkRequests:
@@ -494,7 +494,7 @@ Message Copy(Topic topic, const void* sample) {
     case Topic::kNetworkReplies:
       return From(*static_cast<const trailcast_wire_NetworkReply*>(sample));
     case Topic::kFollowed:
-      return From(*static_cast<const trailcast_wire_FollowedStretches*>(sample));
+      return From(*static_cast<const trailcast_wire_FollowedSections*>(sample));
     case Topic::kReachRequests:
       return From(*static_cast<const trailcast_wire_ReachRequest*>(sample));
     case Topic::kReachReports:

@@ -435,15 +435,15 @@ Result<void> With(const DriveCommand& message, const UseSample& use) {
   return use(&sample);
 }
 
-Result<void> With(const GlanceRequest& message, const UseSample& use) {
-  const trailcast_wire_GlanceRequest sample{.agent = Lend(message.agent.value()),
-                                            .client = Lend(message.client.value()),
-                                            .request = message.request};
+Result<void> With(const SnapshotRequest& message, const UseSample& use) {
+  const trailcast_wire_SnapshotRequest sample{.agent = Lend(message.agent.value()),
+                                              .client = Lend(message.client.value()),
+                                              .request = message.request};
   return use(&sample);
 }
 
-Result<void> With(const Glance& message, const UseSample& use) {
-  trailcast_wire_Glance sample{};
+Result<void> With(const Snapshot& message, const UseSample& use) {
+  trailcast_wire_Snapshot sample{};
   sample.agent = Lend(message.agent.value());
   sample.client = Lend(message.client.value());
   sample.request = message.request;
@@ -482,16 +482,16 @@ Result<void> With(const NetworkReply& message, const UseSample& use) {
   return use(&sample);
 }
 
-Result<void> With(const FollowedStretches& message, const UseSample& use) {
-  std::vector<trailcast_wire_FollowedStretch> stretches;
-  stretches.reserve(message.stretches.size());
-  for (const FollowedStretches::Stretch& each : message.stretches) {
-    stretches.push_back({.number = each.number, .passed = each.passed, .lost = each.lost});
+Result<void> With(const FollowedSections& message, const UseSample& use) {
+  std::vector<trailcast_wire_FollowedSection> sections;
+  sections.reserve(message.sections.size());
+  for (const FollowedSections::Section& each : message.sections) {
+    sections.push_back({.number = each.number, .passed = each.passed, .lost = each.lost});
   }
-  trailcast_wire_FollowedStretches sample{};
+  trailcast_wire_FollowedSections sample{};
   sample.agent = Lend(message.agent.value());
   sample.on = ToWire(message.key);
-  Lend(stretches, sample.stretches);
+  Lend(sections, sample.sections);
   return use(&sample);
 }
 
@@ -570,12 +570,12 @@ const dds_topic_descriptor_t& TypeOf(Topic topic) {
                                                              &trailcast_wire_MissionRequest_desc,
                                                              &trailcast_wire_MissionReply_desc,
                                                              &trailcast_wire_DriveCommand_desc,
-                                                             &trailcast_wire_GlanceRequest_desc,
-                                                             &trailcast_wire_Glance_desc,
+                                                             &trailcast_wire_SnapshotRequest_desc,
+                                                             &trailcast_wire_Snapshot_desc,
                                                              &trailcast_wire_NetworkEdit_desc,
                                                              &trailcast_wire_NetworkRequest_desc,
                                                              &trailcast_wire_NetworkReply_desc,
-                                                             &trailcast_wire_FollowedStretches_desc,
+                                                             &trailcast_wire_FollowedSections_desc,
                                                              &trailcast_wire_ReachRequest_desc,
                                                              &trailcast_wire_ReachReport_desc,
                                                              &trailcast_wire_StoreSummary_desc};

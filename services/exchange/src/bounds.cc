@@ -254,7 +254,7 @@ Result<void> Check(const mission::Report& message) {
   // A robot takes a mission or refuses it; only servers put one off.
   const auto last = message.change == 0 ? mission::State::kPutOff : mission::State::kExpired;
   if (auto ok = CheckEnum("mission state", message.state, last); !ok) return ok;
-  if (auto ok = CheckEnum("what it waits for", message.waits_for, mission::WaitsFor::kTurn); !ok) {
+  if (auto ok = CheckEnum("what it waits for", message.waits_for, mission::WaitsFor::kPlace); !ok) {
     return ok;
   }
   return CheckText("detail", message.detail, kMaxLineBytes);
@@ -306,15 +306,15 @@ Result<void> Check(const DriveCommand& message) {
   return CheckAmount("turn in rad/s", std::abs(message.turn_radps), kMaxTurn_radps);
 }
 
-Result<void> Check(const GlanceRequest& message) {
+Result<void> Check(const SnapshotRequest& message) {
   if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
   return CheckName("client", message.client.value());
 }
 
-Result<void> Check(const Glance& message) {
+Result<void> Check(const Snapshot& message) {
   if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
   if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
-  if (auto ok = CheckCount("bytes of a picture", message.picture.size(), kMaxGlanceBytes); !ok) {
+  if (auto ok = CheckCount("bytes of a picture", message.picture.size(), kMaxSnapshotBytes); !ok) {
     return ok;
   }
   return CheckText("detail", message.detail, kMaxLineBytes);
@@ -340,15 +340,15 @@ Result<void> Check(const NetworkReply& message) {
   return CheckText("error", message.error, kMaxLineBytes);
 }
 
-Result<void> Check(const FollowedStretches& message) {
+Result<void> Check(const FollowedSections& message) {
   if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
   if (auto ok = CheckKey(message.key); !ok) return ok;
-  if (auto ok = CheckCount("stretches", message.stretches.size(), kMaxStretchesTold); !ok) {
+  if (auto ok = CheckCount("sections", message.sections.size(), kMaxSectionsTold); !ok) {
     return ok;
   }
-  constexpr auto kMost = static_cast<std::size_t>(kMaxLength_m / kFollowedStretch_m);
-  for (const FollowedStretches::Stretch& each : message.stretches) {
-    if (auto ok = CheckCount("number of a stretch", each.number, kMost); !ok) return ok;
+  constexpr auto kMost = static_cast<std::size_t>(kMaxLength_m / kFollowedSection_m);
+  for (const FollowedSections::Section& each : message.sections) {
+    if (auto ok = CheckCount("number of a section", each.number, kMost); !ok) return ok;
     if (auto ok = CheckCount("times passed", each.passed, kMaxTimesPassed); !ok) return ok;
     if (auto ok = CheckCount("times lost, of those passed", each.lost, each.passed); !ok) return ok;
   }

@@ -73,8 +73,8 @@ TopicUse OnDutyTopics() {
   use.read.push_back(Topic::kMissions);
   use.read.push_back(Topic::kMissionStates);  // of missions that servers have
   use.write.push_back(Topic::kMissionStates);
-  use.read.push_back(Topic::kGlanceRequests);
-  use.write_rarely.push_back(Topic::kGlances);
+  use.read.push_back(Topic::kSnapshotRequests);
+  use.write_rarely.push_back(Topic::kSnapshots);
   return use;
 }
 
@@ -94,7 +94,9 @@ TopicUse HistoryTopics() {
 
 TopicUse DriverTopics() { return {.write = {Topic::kDrives}, .read = {}}; }
 
-TopicUse GlanceTopics() { return {.write = {Topic::kGlanceRequests}, .read = {Topic::kGlances}}; }
+TopicUse SnapshotTopics() {
+  return {.write = {Topic::kSnapshotRequests}, .read = {Topic::kSnapshots}};
+}
 
 TopicUse NetworkTopics() {
   return {.write = {Topic::kNetworkRequests}, .read = {Topic::kNetworkReplies}};
@@ -133,8 +135,8 @@ std::optional<Topic> TopicOf(const Message& message) {
                                        Topic::kMissionRequests,
                                        Topic::kMissionReplies,
                                        Topic::kDrives,
-                                       Topic::kGlanceRequests,
-                                       Topic::kGlances,
+                                       Topic::kSnapshotRequests,
+                                       Topic::kSnapshots,
                                        Topic::kNetworkEdits,
                                        Topic::kNetworkRequests,
                                        Topic::kNetworkReplies,
@@ -190,10 +192,10 @@ const char* NameOf(Topic topic) {
       return "trailcast/mission_replies";
     case Topic::kDrives:
       return "trailcast/drives";
-    case Topic::kGlanceRequests:
-      return "trailcast/glance_requests";
-    case Topic::kGlances:
-      return "trailcast/glances";
+    case Topic::kSnapshotRequests:
+      return "trailcast/snapshot_requests";
+    case Topic::kSnapshots:
+      return "trailcast/snapshots";
     case Topic::kNetworkEdits:
       return "trailcast/network_edits";
     case Topic::kNetworkRequests:

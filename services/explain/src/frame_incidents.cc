@@ -27,7 +27,7 @@ constexpr double kNotBelieved = 0.2;
 constexpr std::size_t kShortest_frames = 5;
 
 // Consecutive rows for which `holds`. `tell` describes them by their first, last and worst row.
-struct Stretches {
+struct Sections {
   std::string kind;
   double weight = 0.0;
   std::function<bool(std::size_t)> holds;
@@ -35,7 +35,7 @@ struct Stretches {
   std::function<std::string(const FrameRow& worst, std::size_t frames)> tell;
 };
 
-std::vector<Incident> Find(const RunLog& log, const Stretches& what) {
+std::vector<Incident> Find(const RunLog& log, const Sections& what) {
   std::vector<Incident> incidents;
   for (std::size_t i = 0; i < log.frames.size(); ++i) {
     if (!what.holds(i)) continue;
@@ -55,7 +55,7 @@ bool Driving(const FrameRow& row) {
   return row.phase == Phase::kSure || row.phase == Phase::kUnsure || row.phase == Phase::kDistant;
 }
 
-Stretches Disagreeing(const RunLog& log) {
+Sections Disagreeing(const RunLog& log) {
   return {"disagree", 12.0,
           [&log](std::size_t i) {
             const FrameRow& row = log.frames[i];
@@ -70,7 +70,7 @@ Stretches Disagreeing(const RunLog& log) {
           }};
 }
 
-Stretches Beside(const RunLog& log) {
+Sections Beside(const RunLog& log) {
   return {"beside", 15.0,
           [&log](std::size_t i) {
             const FrameRow& row = log.frames[i];
@@ -84,7 +84,7 @@ Stretches Beside(const RunLog& log) {
           }};
 }
 
-Stretches BesideInTruth(const RunLog& log) {
+Sections BesideInTruth(const RunLog& log) {
   return {"truly beside", 28.0,
           [&log](std::size_t i) { return log.frames[i].true_off_m.value_or(0.0) > kFarInTruth_m; },
           [](const FrameRow& row) { return row.true_off_m.value_or(0.0); },
@@ -98,7 +98,7 @@ Stretches BesideInTruth(const RunLog& log) {
           }};
 }
 
-Stretches OdometryLies(const RunLog& log) {
+Sections OdometryLies(const RunLog& log) {
   return {"odometry", 18.0,
           [&log](std::size_t i) {
             const FrameRow& row = log.frames[i];

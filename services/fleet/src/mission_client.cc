@@ -114,6 +114,7 @@ program::Json ReportJson(const mission::Report& report) {
           {"robot", report.agent.value()},
           {"state", mission::ToString(report.state)},
           {"task", report.task},
+          {"waits_for", mission::ToString(report.waits_for)},
           {"detail", report.detail}};
 }
 
@@ -125,6 +126,7 @@ program::Json MissionJson(const mission::Record& record) {
           {"sent_by", WithoutProcess(mission.client.value())},
           {"state", mission::ToString(record.last.state)},
           {"task", record.last.task},
+          {"waits_for", mission::ToString(record.last.waits_for)},
           {"detail", record.last.detail},
           {"sent_unix_ms", record.sent_unix_ms},
           {"changed_unix_ms", record.changed_unix_ms}};

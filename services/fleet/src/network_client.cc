@@ -44,16 +44,16 @@ Json PlaceJson(const network::Place& place) {
   return {{"route", place.route}, {"along_m", Rounded(place.along_m, 100.0)}};
 }
 
-Json JointJson(const network::Joint& joint) {
+Json JunctionJson(const network::Junction& junction) {
   Json lie;
-  if (joint.lie) {
-    lie = {{"ahead_m", Rounded(joint.lie->ahead_m, 100.0)},
-           {"left_m", Rounded(joint.lie->left_m, 100.0)},
-           {"turn_rad", Rounded(joint.lie->turn_rad, 1e4)}};
+  if (junction.lie) {
+    lie = {{"ahead_m", Rounded(junction.lie->ahead_m, 100.0)},
+           {"left_m", Rounded(junction.lie->left_m, 100.0)},
+           {"turn_rad", Rounded(junction.lie->turn_rad, 1e4)}};
   }
-  return {{"from", PlaceJson(joint.from)},
-          {"to", PlaceJson(joint.to)},
-          {"both", joint.both},
+  return {{"from", PlaceJson(junction.from)},
+          {"to", PlaceJson(junction.to)},
+          {"both", junction.both},
           {"lie", std::move(lie)}};
 }
 
@@ -86,7 +86,7 @@ Json LaneJson(const network::Lane& lane, const Lines& taken_by) {
   return {{"parts", std::move(parts)}, {"taken_by", taken_by}};
 }
 
-Json LostJson(const network::LostStretch& lost) {
+Json LostJson(const network::LostSection& lost) {
   Json json = PartJson(lost.route, lost.from_m, lost.to_m);
   json.update({{"passed", lost.passed}, {"lost", lost.lost}, {"cost", lost.cost}});
   return json;
@@ -103,20 +103,20 @@ bool IsAbout(const Lines& routes, std::span<const std::string> of) {
 }
 
 // Returns the sections of a path, or none for orders that are no path.
-std::vector<network::Stretch> StretchesOf(const Lines& way) {
+std::vector<network::Section> SectionsOf(const Lines& way) {
   const auto tasks = mission::ParseOrders(fmt::format("goto there {}", fmt::join(way, " ")))
                          .value_or(std::vector<mission::Task>{});
-  std::vector<network::Stretch> stretches;
+  std::vector<network::Section> sections;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const mission::Task& task = tasks[i];
     if (task.kind != mission::Task::Kind::kFollow) continue;
-    stretches.push_back({.route = task.route.route,
-                         .from_m = task.from_m,
-                         .to_m = task.to_m,
-                         .speed = task.speed_factor,
-                         .turn_rad = mission::TurnBefore(tasks, i)});
+    sections.push_back({.route = task.route.route,
+                        .from_m = task.from_m,
+                        .to_m = task.to_m,
+                        .speed = task.speed_factor,
+                        .turn_rad = mission::TurnBefore(tasks, i)});
   }
-  return stretches;
+  return sections;
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ Result<std::string> OrdersAlong(const Lines& way, const std::string& to) {
   std::string orders = fmt::format("goto {} {}", to, fmt::join(way, " "));
   if (orders.size() <= exchange::kMaxLineBytes) return orders;
   return Fail(ErrorCode::kInvalidArgument,
-              "the way has {} stretches, more than one mission holds: send it to a place on the "
+              "the way has {} sections, more than one mission holds: send it to a place on the "
               "way first ('trailcast network way' shows it)",
               way.size());
 }
@@ -194,13 +194,13 @@ Json NetworkJson(const Lines& lines) {
           {{"route", route->name}, {"length_m", Rounded(route->length_m, 100.0)}});
     }
     if (proposal) {
-      network["proposed"].push_back(
-          With(JointJson(proposal->joint), "confidence", Rounded(proposal->confidence, 100.0)));
+      network["proposed"].push_back(With(JunctionJson(proposal->junction), "confidence",
+                                         Rounded(proposal->confidence, 100.0)));
     }
     if (lost) network["lost"].push_back(LostJson(*lost));
     if (!edit) continue;
     if (edit->kind == network::Edit::Kind::kJoin) {
-      network["joints"].push_back(With(JointJson(edit->joint), "used", used));
+      network["joints"].push_back(With(JunctionJson(edit->junction), "used", used));
     } else if (edit->kind == network::Edit::Kind::kNarrow) {
       network["narrow"].push_back(LaneJson(edit->lane, taken_by));
     } else if (edit->kind == network::Edit::Kind::kName) {
@@ -233,13 +233,13 @@ std::string PassingText(const network::Passings& passings) {
     width = std::max(width, network::ToText(each.at).size());
   }
   std::string text = place + "\n";
-  const network::Joint* proposed = nullptr;
+  const network::Junction* proposed = nullptr;
   for (const network::Passing& each : passings.routes) {
     text += fmt::format("  {:<{}}  {}\n", network::ToText(each.at), width,
                         each.confidence
-                            ? network::ToText(network::Proposal{each.joint, *each.confidence})
-                            : network::ToText(each.joint));
-    if (each.confidence && proposed == nullptr) proposed = &each.joint;
+                            ? network::ToText(network::Proposal{each.junction, *each.confidence})
+                            : network::ToText(each.junction));
+    if (each.confidence && proposed == nullptr) proposed = &each.junction;
   }
   if (proposed == nullptr) return text;
   return text + fmt::format(
@@ -254,7 +254,7 @@ Json PassingJson(const network::Passings& passings) {
     routes.push_back({{"at", PlaceJson(each.at)},
                       {"joined", !each.confidence},
                       {"confidence", program::RoundedOrNull(each.confidence, 100.0)},
-                      {"joint", JointJson(each.joint)}});
+                      {"joint", JunctionJson(each.junction)}});
   }
   return {{"place", PlaceJson(passings.place)}, {"passing", std::move(routes)}};
 }
@@ -262,20 +262,20 @@ Json PassingJson(const network::Passings& passings) {
 std::string WayText(const Lines& way) {
   if (way.empty()) return "it is there already\n";
   std::string text;
-  for (const std::string& stretch : way) text += stretch + "\n";
-  return text + fmt::format("{:.1f} m\n", network::LengthOf(StretchesOf(way)));
+  for (const std::string& section : way) text += section + "\n";
+  return text + fmt::format("{:.1f} m\n", network::LengthOf(SectionsOf(way)));
 }
 
 Json WayJson(const Lines& way) {
-  const auto way_stretches = StretchesOf(way);
-  Json stretches = Json::array();
-  for (const network::Stretch& each : way_stretches) {
-    Json stretch = With(PartJson(each.route, each.from_m, each.to_m), "speed", each.speed);
-    if (each.turn_rad != 0.0) stretch["turn_rad"] = Rounded(each.turn_rad, 1000.0);
-    stretches.push_back(std::move(stretch));
+  const auto way_sections = SectionsOf(way);
+  Json sections = Json::array();
+  for (const network::Section& each : way_sections) {
+    Json section = With(PartJson(each.route, each.from_m, each.to_m), "speed", each.speed);
+    if (each.turn_rad != 0.0) section["turn_rad"] = Rounded(each.turn_rad, 1000.0);
+    sections.push_back(std::move(section));
   }
-  return {{"length_m", Rounded(network::LengthOf(way_stretches), 100.0)},
-          {"stretches", std::move(stretches)}};
+  return {{"length_m", Rounded(network::LengthOf(way_sections), 100.0)},
+          {"stretches", std::move(sections)}};
 }
 
 std::string ChangesText(const network::History& history, std::int64_t since_unix_ms,

@@ -69,13 +69,13 @@ class PathJudge {
   std::optional<Eigen::Vector2d> last_m_;
   double last_error_m_ = 0.0;
   double driven_m_ = 0.0;
-  struct Stretch {
+  struct Section {
     double error_m = 0.0;
     double driven_m = 0.0;
   };
   [[nodiscard]] double WithinFor(double share) const;
 
-  std::vector<Stretch> stretches_;
+  std::vector<Section> sections_;
   std::optional<double> max_settled_m_;
   double worst_m_ = 0.0;
   std::optional<double> pushed_at_m_;  // distance driven until then

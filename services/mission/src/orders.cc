@@ -102,11 +102,11 @@ class Parser {
   [[nodiscard]] Result<void> CheckOnWay(const Task& task, const std::vector<Task>& before) const {
     if (!going_) return {};
     const bool ends = !before.empty() && before.back().kind == Task::Kind::kWaitWay;
-    const bool is_stretch = task.kind == Task::Kind::kFollow && task.laps == 1 &&
+    const bool is_section = task.kind == Task::Kind::kFollow && task.laps == 1 &&
                             (task.backwards ? task.from_m : task.to_m) > 0.0;
     const bool is_turn = task.kind == Task::Kind::kTurn;
     const bool waits = task.kind == Task::Kind::kWaitWay || task.kind == Task::Kind::kWaitLane;
-    if (!ends && (is_stretch || is_turn || waits)) return {};
+    if (!ends && (is_section || is_turn || waits)) return {};
     return Wrong(ToText(task), kWay);
   }
 
@@ -306,6 +306,22 @@ const char* ToString(State state) {
       return "expired";
     case State::kPutOff:
       return "put off";
+  }
+  return "unknown";
+}
+
+const char* ToString(WaitsFor waits_for) {
+  switch (waits_for) {
+    case WaitsFor::kNothing:
+      return "nothing";
+    case WaitsFor::kWay:
+      return "path";
+    case WaitsFor::kLane:
+      return "admission";
+    case WaitsFor::kTurn:
+      return "turn";
+    case WaitsFor::kPlace:
+      return "place";
   }
   return "unknown";
 }

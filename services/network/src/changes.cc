@@ -53,8 +53,8 @@ std::optional<std::pair<std::string, std::string>> ParseRenaming(std::string_vie
 }
 
 std::vector<std::string> RoutesIn(const Edit& edit) {
-  std::vector<std::string> routes{edit.joint.from.route, edit.joint.to.route, edit.condition.route,
-                                  edit.named.place.route};
+  std::vector<std::string> routes{edit.junction.from.route, edit.junction.to.route,
+                                  edit.condition.route, edit.named.place.route};
   for (const Part& part : edit.lane.parts) routes.push_back(part.route);
   return routes;
 }

@@ -21,18 +21,18 @@ constexpr double kClosedCosts = 1e15;
 
 }  // namespace
 
-void Stretch::BeginAt(double along_m) {
+void Section::BeginAt(double along_m) {
   from_m = AlongAfter(std::clamp(DrivenAt(along_m), 0.0, length_m()));
 }
 
-bool GoesOn(const Stretch& before, const Stretch& next) {
+bool GoesOn(const Section& before, const Section& next) {
   return before.route == next.route && std::abs(before.to_m - next.from_m) <= kSame_m &&
          before.backwards() == next.backwards() && next.turn_rad == 0.0;
 }
 
-double LengthOf(std::span<const Stretch> stretches) {
+double LengthOf(std::span<const Section> sections) {
   double length_m = 0.0;
-  for (const Stretch& stretch : stretches) length_m += stretch.length_m();
+  for (const Section& section : sections) length_m += section.length_m();
   return length_m;
 }
 
@@ -41,18 +41,18 @@ class Network::Drives {
  public:
   void Prepend(Index route, double from_m, double to_m) {
     if (from_m == to_m) return;
-    const bool goes_on = !drives_.empty() && !joint_ &&
+    const bool goes_on = !drives_.empty() && !junction_ &&
                          (drives_.back().to_m < drives_.back().from_m) == (to_m < from_m);
     if (goes_on) {
       drives_.back().from_m = from_m;
     } else {
       drives_.push_back({route, from_m, to_m});
     }
-    joint_ = false;
+    junction_ = false;
   }
-  void PrependJoint(double turn_rad) {
+  void PrependJunction(double turn_rad) {
     if (!drives_.empty()) drives_.back().turn_rad += turn_rad;
-    joint_ = true;
+    junction_ = true;
   }
   [[nodiscard]] std::vector<Drive> Take() {
     std::reverse(drives_.begin(), drives_.end());
@@ -61,10 +61,10 @@ class Network::Drives {
 
  private:
   std::vector<Drive> drives_;
-  bool joint_ = false;  // a junction comes before the last one
+  bool junction_ = false;  // a junction comes before the last one
 };
 
-Result<Network> Network::Build(std::vector<Route> routes, const std::vector<Joint>& joints,
+Result<Network> Network::Build(std::vector<Route> routes, const std::vector<Junction>& junctions,
                                std::span<const Condition> conditions) {
   Network network;
   network.routes_ = std::move(routes);
@@ -73,16 +73,16 @@ Result<Network> Network::Build(std::vector<Route> routes, const std::vector<Join
       return Fail(ErrorCode::kInvalidArgument, "two routes with the id {}", network.routes_[i].id);
     }
   }
-  for (const Joint& joint : joints) {
-    for (const Place* place : {&joint.from, &joint.to}) {
+  for (const Junction& junction : junctions) {
+    for (const Place* place : {&junction.from, &junction.to}) {
       if (const auto found = network.Find(*place); !found) {
         return Fail(ErrorCode::kInvalidArgument, "a junction: {}", found.error().message);
       }
     }
   }
-  network.PlaceNodes(joints, conditions);
+  network.PlaceNodes(junctions, conditions);
   network.Weigh(conditions);
-  network.Link(joints);
+  network.Link(junctions);
   return network;
 }
 
@@ -99,7 +99,8 @@ Result<Network::Spot> Network::Find(const Place& place) const {
   return Spot{at->second, std::min(place.along_m, route.length_m)};
 }
 
-void Network::PlaceNodes(const std::vector<Joint>& joints, std::span<const Condition> conditions) {
+void Network::PlaceNodes(const std::vector<Junction>& junctions,
+                         std::span<const Condition> conditions) {
   const auto add = [this](const Spot& spot) {
     nodes_.push_back({.route = spot.route, .along_m = spot.along_m});
   };
@@ -107,9 +108,9 @@ void Network::PlaceNodes(const std::vector<Joint>& joints, std::span<const Condi
     add({i, 0.0});
     add({i, routes_[i].length_m});
   }
-  for (const Joint& joint : joints) {
-    add(*Find(joint.from));
-    add(*Find(joint.to));
+  for (const Junction& junction : junctions) {
+    add(*Find(junction.from));
+    add(*Find(junction.to));
   }
   for (const Condition& condition : conditions) {
     const auto at = by_id_.find(condition.route);
@@ -137,15 +138,15 @@ void Network::Weigh(std::span<const Condition> conditions) {
   }
 }
 
-void Network::Link(const std::vector<Joint>& joints) {
-  for (const Joint& joint : joints) {
-    const Index from = NodeAt(*Find(joint.from));
-    const Index to = NodeAt(*Find(joint.to));
-    const double turn_rad = joint.lie ? joint.lie->turn_rad : 0.0;
+void Network::Link(const std::vector<Junction>& junctions) {
+  for (const Junction& junction : junctions) {
+    const Index from = NodeAt(*Find(junction.from));
+    const Index to = NodeAt(*Find(junction.to));
+    const double turn_rad = junction.lie ? junction.lie->turn_rad : 0.0;
     const float turns_rad =
         std::abs(turn_rad) > kTurnsFrom_rad ? static_cast<float>(turn_rad) : 0.0F;
     leaps_.push_back({from, to, turns_rad});
-    if (joint.both) leaps_.push_back({to, from, -turns_rad});
+    if (junction.both) leaps_.push_back({to, from, -turns_rad});
   }
   std::sort(leaps_.begin(), leaps_.end());
   auto next = leaps_.cbegin();
@@ -255,7 +256,7 @@ Network::Found Network::Search(const Spot& from, const Spot& to, const Open& ope
   for (; reached[node].before != kNone; node = reached[node].before) {
     const auto& [cost, before, leap] = reached[node];
     if (leap != kNone) {
-      drives.PrependJoint(leaps_[leap].turn_rad);
+      drives.PrependJunction(leaps_[leap].turn_rad);
     } else {
       drives.Prepend(nodes_[node].route, nodes_[before].along_m, nodes_[node].along_m);
     }
@@ -276,21 +277,21 @@ Way Network::WayOf(const std::vector<Drive>& drives) const {
     while (at_m != drive.to_m) {
       const double end_m = back ? std::max(nodes_[i].along_m, drive.to_m)
                                 : std::min(nodes_[i + 1].along_m, drive.to_m);
-      if (goes_on && way.stretches.back().speed == nodes_[i].speed) {
-        way.stretches.back().to_m = end_m;
+      if (goes_on && way.sections.back().speed == nodes_[i].speed) {
+        way.sections.back().to_m = end_m;
       } else {
-        way.stretches.push_back({.route = routes_[drive.route].id,
-                                 .from_m = at_m,
-                                 .to_m = end_m,
-                                 .speed = nodes_[i].speed,
-                                 .turn_rad = std::exchange(turn_rad, 0.0)});
+        way.sections.push_back({.route = routes_[drive.route].id,
+                                .from_m = at_m,
+                                .to_m = end_m,
+                                .speed = nodes_[i].speed,
+                                .turn_rad = std::exchange(turn_rad, 0.0)});
         goes_on = true;
       }
       at_m = end_m;
       i += back ? -1 : 1;
     }
   }
-  way.length_m = LengthOf(way.stretches);
+  way.length_m = LengthOf(way.sections);
   return way;
 }
 
@@ -357,15 +358,15 @@ Network::WayOut Network::OutOf(const Spot& spot) const {
   return {.open = closed, .from = spot};
 }
 
-std::optional<Condition> Network::FirstClosed(const Stretch& stretch) const {
-  const auto begin = Find({stretch.route, stretch.from_m});
+std::optional<Condition> Network::FirstClosed(const Section& section) const {
+  const auto begin = Find({section.route, section.from_m});
   if (!begin) return std::nullopt;
   const WayOut out = OutOf(*begin);
   const Index at = NodeAt(out.from);
-  const Index last = NodeAt({begin->route, stretch.to_m});
-  if (!stretch.backwards()) {
+  const Index last = NodeAt({begin->route, section.to_m});
+  if (!section.backwards()) {
     for (Index i = std::max(at, out.open.end); i <= last; ++i) {
-      if (nodes_[i].closed && nodes_[i].along_m < stretch.to_m) {
+      if (nodes_[i].closed && nodes_[i].along_m < section.to_m) {
         return ClosedBetween(ClosedAbout(i));
       }
     }

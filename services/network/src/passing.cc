@@ -18,10 +18,10 @@ std::optional<Passing> ParsePassing(std::string_view line) {
   const Listed listed = ParseListed(line.substr(std::min(blank + 1, line.size())));
   if (!at) return std::nullopt;
   if (listed.proposal) {
-    return Passing{*std::move(at), listed.proposal->joint, listed.proposal->confidence};
+    return Passing{*std::move(at), listed.proposal->junction, listed.proposal->confidence};
   }
   if (!listed.edit || listed.edit->kind != Edit::Kind::kJoin) return std::nullopt;
-  return Passing{*std::move(at), listed.edit->joint, std::nullopt};
+  return Passing{*std::move(at), listed.edit->junction, std::nullopt};
 }
 
 }  // namespace
@@ -36,10 +36,10 @@ std::optional<std::string> ParseWhatPasses(std::string_view words) {
 std::string AtPlace(const Place& place) { return std::string(kAt) + ToText(place); }
 
 std::string ToText(const Passing& passing) {
-  const std::string joint = passing.confidence
-                                ? ToText(Proposal{passing.joint, *passing.confidence})
-                                : ToText(passing.joint);
-  return std::string(kPasses) + ToText(passing.at) + " " + joint;
+  const std::string junction = passing.confidence
+                                   ? ToText(Proposal{passing.junction, *passing.confidence})
+                                   : ToText(passing.junction);
+  return std::string(kPasses) + ToText(passing.at) + " " + junction;
 }
 
 Passings ParsePassings(const std::vector<std::string>& lines) {

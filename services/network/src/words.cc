@@ -31,6 +31,7 @@ constexpr std::string_view kRoute = "route ";
 constexpr std::string_view kProposed = "proposed ";
 constexpr std::string_view kConfidence = " confidence ";
 constexpr std::string_view kLost = "lost ";
+constexpr std::string_view kHome = "home";  // behind a name: robots are at home there
 
 // Writes metres to the centimetre.
 std::string Metres(double metres) {
@@ -69,16 +70,16 @@ class Words {
   std::string_view rest_;
 };
 
-Result<Joint> TakeJoint(Words& words) {
+Result<Junction> TakeJunction(Words& words) {
   auto from = ParsePlace(words.Take());
   if (!from) return tl::unexpected(from.error());
   auto to = ParsePlace(words.Take());
   if (!to) return tl::unexpected(to.error());
   if (*from == *to) return Wrong(ToText(*to), "another place than the first");
-  return Joint{.from = *std::move(from), .to = *std::move(to)};
+  return Junction{.from = *std::move(from), .to = *std::move(to)};
 }
 
-Result<void> TakeLie(Words& words, Joint& joint) {
+Result<void> TakeLie(Words& words, Junction& junction) {
   if (words.TakeIf("offset")) {
     const std::string_view word = words.Take();
     const std::size_t comma = std::min(word.find(','), word.size());
@@ -87,15 +88,15 @@ Result<void> TakeLie(Words& words, Joint& joint) {
                           ? ParseNumberWithin(word.substr(comma + 1), -kMostOffset_m, kMostOffset_m)
                           : std::nullopt;
     if (!ahead || !left) return Wrong(word, "AHEAD,LEFT in metres, as 0.1,-0.25");
-    if (!joint.lie) joint.lie.emplace();
-    joint.lie->ahead_m = *ahead;
-    joint.lie->left_m = *left;
+    if (!junction.lie) junction.lie.emplace();
+    junction.lie->ahead_m = *ahead;
+    junction.lie->left_m = *left;
   } else if (words.TakeIf("heading")) {
     const std::string_view word = words.Take();
     const auto degrees = ParseNumberWithin(word, -180.0, 180.0);
     if (!degrees) return Wrong(word, "degrees to the left, -180 to 180");
-    if (!joint.lie) joint.lie.emplace();
-    joint.lie->turn_rad = Radians(*degrees);
+    if (!junction.lie) junction.lie.emplace();
+    junction.lie->turn_rad = Radians(*degrees);
   } else {
     return Wrong(words.Next(), "'both', 'offset AHEAD,LEFT', 'heading DEGREES' or nothing more");
   }
@@ -103,16 +104,16 @@ Result<void> TakeLie(Words& words, Joint& joint) {
 }
 
 Result<Edit> TakeJoin(Words& words) {
-  auto joint = TakeJoint(words);
-  if (!joint) return tl::unexpected(joint.error());
+  auto junction = TakeJunction(words);
+  if (!junction) return tl::unexpected(junction.error());
   while (!words.empty()) {
     if (words.TakeIf("both")) {
-      joint->both = true;
-    } else if (auto taken = TakeLie(words, *joint); !taken) {
+      junction->both = true;
+    } else if (auto taken = TakeLie(words, *junction); !taken) {
       return tl::unexpected(taken.error());
     }
   }
-  return Edit{.kind = Edit::Kind::kJoin, .joint = *std::move(joint)};
+  return Edit{.kind = Edit::Kind::kJoin, .junction = *std::move(junction)};
 }
 
 Result<Edit> TakeName(Words& words, Edit::Kind kind) {
@@ -136,10 +137,10 @@ Result<Edit> TakeName(Words& words, Edit::Kind kind) {
 
 // Parses PLACE PLACE.
 Result<Edit> TakePlaces(Words& words, Edit::Kind kind) {
-  auto joint = TakeJoint(words);
-  if (!joint) return tl::unexpected(joint.error());
+  auto junction = TakeJunction(words);
+  if (!junction) return tl::unexpected(junction.error());
   if (!words.empty()) return Wrong(words.Next(), "nothing more");
-  return Edit{.kind = kind, .joint = *std::move(joint)};
+  return Edit{.kind = kind, .junction = *std::move(junction)};
 }
 
 // Parses PLACE PLACE, or "all" with a bound.
@@ -161,28 +162,28 @@ Result<Edit> TakeVerdict(Words& words, Edit::Kind kind) {
 }
 
 // Parses ROUTE [FROM..TO].
-Result<Condition> TakeStretch(Words& words) {
-  Condition stretch{.route = std::string(words.Take()), .to_m = kToTheEnd_m};
-  if (stretch.route.empty()) return Wrong("", "a route, by its name or id");
+Result<Condition> TakeSection(Words& words) {
+  Condition section{.route = std::string(words.Take()), .to_m = kToTheEnd_m};
+  if (section.route.empty()) return Wrong("", "a route, by its name or id");
   const std::string_view word = words.Next();
-  if (word.find("..") == std::string_view::npos) return stretch;
+  if (word.find("..") == std::string_view::npos) return section;
   (void)words.Take();
   const auto part = ParseRange(word, 0.0, kToTheEnd_m);
   if (part) {
-    stretch.from_m = part->from.value_or(0.0);
-    stretch.to_m = part->to.value_or(kToTheEnd_m);
+    section.from_m = part->from.value_or(0.0);
+    section.to_m = part->to.value_or(kToTheEnd_m);
   }
-  if (!part || stretch.to_m <= stretch.from_m) {
+  if (!part || section.to_m <= section.from_m) {
     return Wrong(word, "FROM..TO in metres along the route, as 3..10, 3.. or ..10");
   }
-  return stretch;
+  return section;
 }
 
 // Parses ROUTE FROM..TO [ROUTE FROM..TO ...].
 Result<Lane> TakeLane(Words& words) {
   Lane lane;
   do {
-    auto part = TakeStretch(words);
+    auto part = TakeSection(words);
     if (!part) return tl::unexpected(part.error());
     if (part->to_m >= kToTheEnd_m) {
       return Wrong(part->route, "a route and FROM..TO, both in metres along it, as hall 3..7");
@@ -244,9 +245,9 @@ Result<Edit> ParseEdit(std::string_view text) {
   } else {
     return Wrong(first, kEdits);
   }
-  auto stretch = TakeStretch(words);
-  if (!stretch) return tl::unexpected(stretch.error());
-  edit.condition = *std::move(stretch);
+  auto section = TakeSection(words);
+  if (!section) return tl::unexpected(section.error());
+  edit.condition = *std::move(section);
   edit.condition.closed = edit.kind == Edit::Kind::kClose;
   edit.condition.backed = edit.kind == Edit::Kind::kBack;
   if (edit.kind == Edit::Kind::kLimit) {
@@ -266,21 +267,21 @@ std::optional<Proposal> ParseProposal(std::string_view text) {
   const auto confidence = ParseNumberWithin(text.substr(at + kConfidence.size()), 0.0, 1.0);
   auto edit = ParseEdit(text.substr(0, at));
   if (!confidence || !edit || edit->kind != Edit::Kind::kJoin) return std::nullopt;
-  return Proposal{std::move(edit->joint), *confidence};
+  return Proposal{std::move(edit->junction), *confidence};
 }
 
 // Parses ROUTE FROM..TO N of M cost F.
-std::optional<LostStretch> ParseLost(std::string_view text) {
+std::optional<LostSection> ParseLost(std::string_view text) {
   Words words(text);
-  auto stretch = TakeStretch(words);
+  auto section = TakeSection(words);
   const auto lost = ParseNumber<double>(words.Take());
   const bool of = words.TakeIf("of");
   const auto passed = ParseNumber<double>(words.Take());
   const bool costs = words.TakeIf("cost");
   const auto cost = ParseNumberWithin(words.Take(), 1.0, kMostFactor);
-  if (!stretch || !lost || !of || !passed || !costs || !cost || !words.empty()) return std::nullopt;
-  return LostStretch{
-      std::move(stretch->route), stretch->from_m, stretch->to_m, *passed, *lost, *cost};
+  if (!section || !lost || !of || !passed || !costs || !cost || !words.empty()) return std::nullopt;
+  return LostSection{
+      std::move(section->route), section->from_m, section->to_m, *passed, *lost, *cost};
 }
 
 }  // namespace
@@ -358,13 +359,13 @@ std::string ToText(const NamedPlace& named) {
                      named.home ? kHome : "");
 }
 
-std::string ToText(const Joint& joint) {
-  std::string text = "join " + ToText(joint.from) + " " + ToText(joint.to);
-  if (joint.both) text += " both";
-  if (!joint.lie) return text;
-  const std::string offset = Metres(joint.lie->ahead_m) + "," + Metres(joint.lie->left_m);
+std::string ToText(const Junction& junction) {
+  std::string text = "join " + ToText(junction.from) + " " + ToText(junction.to);
+  if (junction.both) text += " both";
+  if (!junction.lie) return text;
+  const std::string offset = Metres(junction.lie->ahead_m) + "," + Metres(junction.lie->left_m);
   if (offset != "0,0") text += " offset " + offset;
-  return text + fmt::format(" heading {:.1f}", Degrees(joint.lie->turn_rad));
+  return text + fmt::format(" heading {:.1f}", Degrees(junction.lie->turn_rad));
 }
 
 std::string ToText(const Condition& condition) {
@@ -390,18 +391,18 @@ std::string ToText(const Lane& lane) {
 
 namespace {
 
-std::string LostTimes(const LostStretch& lost) {
+std::string LostTimes(const LostSection& lost) {
   return fmt::format("{}{} {}..{} {:g} of {:g}", kLost, lost.route, Metres(lost.from_m),
                      Metres(lost.to_m), lost.lost, lost.passed);
 }
 
 }  // namespace
 
-std::string ToText(const LostStretch& lost) {
+std::string ToText(const LostSection& lost) {
   return fmt::format("{} cost {:g}", LostTimes(lost), lost.cost);
 }
 
-std::string Describe(const LostStretch& lost) {
+std::string Describe(const LostSection& lost) {
   return fmt::format("{} times lately, a metre counts as {:g}", LostTimes(lost), lost.cost);
 }
 
@@ -409,7 +410,7 @@ std::string ToText(const Proposal& proposal) {
   // The text must not claim more confidence than there is.
   constexpr double kRounding = 1e-6;
   const double confidence = std::floor(100.0 * proposal.confidence + kRounding) / 100.0;
-  return fmt::format("{}{}{}{:.2f}", kProposed, ToText(proposal.joint), kConfidence, confidence);
+  return fmt::format("{}{}{}{:.2f}", kProposed, ToText(proposal.junction), kConfidence, confidence);
 }
 
 std::vector<Condition> Amended(std::vector<Condition> conditions, const Edit& edit) {

@@ -48,7 +48,7 @@ class Map {
                            static_cast<double>(network_.routes.size() - 1) * kRow_px +
                            2.0 * kScale_px;
     Drawing drawing(static_cast<int>(wide_px), static_cast<int>(high_px), kWhite);
-    for (const Picture::Joint& joint : network_.joints) DrawJoint(drawing, joint);
+    for (const Picture::Junction& junction : network_.junctions) DrawJunction(drawing, junction);
     for (std::size_t i = 0; i < network_.routes.size(); ++i) DrawRoute(drawing, i);
     for (const Picture::Name& name : network_.names) DrawName(drawing, name);
     DrawScale(drawing, high_px - 22.0);
@@ -121,16 +121,16 @@ class Map {
     }
   }
 
-  void DrawJoint(Drawing& drawing, const Picture::Joint& joint) const {
-    const PixelPoint from = At(joint.from);
-    const PixelPoint to = At(joint.to);
+  void DrawJunction(Drawing& drawing, const Picture::Junction& junction) const {
+    const PixelPoint from = At(junction.from);
+    const PixelPoint to = At(junction.to);
     std::vector<PixelPoint> way{from, to};
-    if (joint.from.route == joint.to.route) {
+    if (junction.from.route == junction.to.route) {
       way = {from, {from.x, from.y + kBow_px}, {to.x, to.y + kBow_px}, to};
     }
-    drawing.Line(way, kQuiet, 2.0, !joint.used);
+    drawing.Line(way, kQuiet, 2.0, !junction.used);
     DrawHead(drawing, way[way.size() - 2], to, kQuiet);
-    if (joint.both) DrawHead(drawing, way[1], from, kQuiet);
+    if (junction.both) DrawHead(drawing, way[1], from, kQuiet);
   }
 
   static void DrawHead(Drawing& drawing, PixelPoint from, PixelPoint to, Color color) {
@@ -183,10 +183,10 @@ std::vector<double> RowStarts(const NetworkPicture& network) {
   std::vector<double> starts_m(network.routes.size(), 0.0);
   for (std::size_t row = 0; row < starts_m.size(); ++row) {
     std::optional<double> start_m;
-    for (const Picture::Joint& joint : network.joints) {
-      const bool leads_up = joint.from.route == row;
-      const Picture::Place& here = leads_up ? joint.from : joint.to;
-      const Picture::Place& above = leads_up ? joint.to : joint.from;
+    for (const Picture::Junction& junction : network.junctions) {
+      const bool leads_up = junction.from.route == row;
+      const Picture::Place& here = leads_up ? junction.from : junction.to;
+      const Picture::Place& above = leads_up ? junction.to : junction.from;
       if (here.route != row || above.route >= row) continue;
       start_m = starts_m[above.route] + above.along_m - here.along_m;
       break;

@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "services/base/ids.h"
+#include "services/base/similar_names.h"
 #include "services/program/src/short_help.h"
 #include "services/program/toml.h"
 #include "services/security/member_keys.h"
@@ -42,11 +45,45 @@ std::string AcceptedKeys(const CLI::App& app) {
   return text;
 }
 
+// These are the names that commands and options had once.
+constexpr std::pair<const char*, const char*> kFormerNames[] = {
+    {"glance", "snapshot"},
+    {"joints", "junctions"},
+    {"--joints", "--junctions"},
+    {"--joints-auto", "--junctions-auto"}};
+
+void AddOptionNames(const CLI::App& app, std::vector<std::string>& names) {
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+}
+
+// Returns "; did you mean 'snapshot'?" for what is no command or option of `app`, or an empty text.
+std::string NameLike(const CLI::App& app, const std::string& unknown) {
+  const std::string word = unknown.substr(0, unknown.find('='));
+  std::vector<std::string> names;
+  AddOptionNames(app, names);
+  for (const CLI::App* command : app.get_subcommands()) AddOptionNames(*command, names);
+  if (app.get_subcommands().empty()) {
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+      names.push_back(command->get_name());
+    }
+  }
+  for (const auto& [former, present] : kFormerNames) {
+    const bool is_there = std::find(names.begin(), names.end(), present) != names.end();
+    if (word == former && is_there) return fmt::format("; did you mean '{}'?", present);
+  }
+  return DidYouMean(word, std::move(names));
+}
+
 // CLI11 looks for missing options before superfluous ones, but a misspelt option is both.
 std::string Explain(const CLI::App& app, const CLI::ParseError& error) {
   std::string message = error.what();
   const std::vector<std::string> unknown = app.remaining(true);
-  if (!unknown.empty()) return fmt::format("not understood: {}", fmt::join(unknown, " "));
+  if (!unknown.empty()) {
+    return fmt::format("not understood: {}{}", fmt::join(unknown, " "),
+                       NameLike(app, unknown.front()));
+  }
   if (dynamic_cast<const CLI::ConfigError*>(&error) == nullptr) return message;
   const std::string prefix = "INI was not able to parse ";
   if (message.rfind(prefix, 0) != 0) return message;

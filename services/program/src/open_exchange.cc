@@ -25,7 +25,7 @@ constexpr NewerTopic kNewerTopics[] = {
     {exchange::Topic::kMissionReplies, "it could be asked what became of missions"},
     {exchange::Topic::kMissions, "robots were sent on missions"},
     {exchange::Topic::kDrives, "robots that teach were driven by operators"},
-    {exchange::Topic::kGlanceRequests, "operators looked through robots' cameras"},
+    {exchange::Topic::kSnapshotRequests, "operators looked through robots' cameras"},
     {exchange::Topic::kNetworkReplies, "routes were joined"},
     {exchange::Topic::kFollowed, "robots told servers where they lose their path"},
     {exchange::Topic::kReachRequests, "members were asked whom they hear"},

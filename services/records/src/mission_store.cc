@@ -99,7 +99,7 @@ mission::Record RecordIn(SQLite::Statement& row) {
       .task = small(9),
       .way = small(10),
       .waits_for = static_cast<mission::WaitsFor>(
-          std::min(small(11), static_cast<std::uint32_t>(mission::WaitsFor::kTurn))),
+          std::min(small(11), static_cast<std::uint32_t>(mission::WaitsFor::kPlace))),
       .detail = row.getColumn(12).getString()};
   record.changed_unix_ms = row.getColumn(13).getInt64();
   return record;

@@ -50,7 +50,7 @@ Result<void> NetworkStore::Replace(const std::string& route,
     const std::int64_t others = database_->Count(
         "SELECT (SELECT count(*) FROM condition) + (SELECT count(*) FROM backed_stretch)");
     if (others + static_cast<std::int64_t>(conditions.size()) > kMostConditions) {
-      return Fail(ErrorCode::kUnavailable, "{} closed stretches and limits are kept: no more",
+      return Fail(ErrorCode::kUnavailable, "{} closed sections and limits are kept: no more",
                   kMostConditions);
     }
     for (const network::Condition& condition : conditions) {

@@ -4,7 +4,7 @@
 namespace trailcast::store {
 namespace {
 
-FollowedStretch FollowedIn(SQLite::Statement& row) {
+FollowedSection FollowedIn(SQLite::Statement& row) {
   return {.key = {RouteId(row.getColumn(0).getString()),
                   TeachingId(static_cast<std::uint64_t>(row.getColumn(1).getInt64()))},
           .number = row.getColumn(2).getInt64(),
@@ -15,16 +15,16 @@ FollowedStretch FollowedIn(SQLite::Statement& row) {
 
 }  // namespace
 
-Result<std::vector<FollowedStretch>> NetworkStore::Followed() {
+Result<std::vector<FollowedSection>> NetworkStore::Followed() {
   return database_->Read("reading how routes were followed",
                          "SELECT route, teaching, number, passed, lost, at_unix_ms FROM "
                          "followed_stretch ORDER BY at_unix_ms, rowid",
                          FollowedIn);
 }
 
-Result<void> NetworkStore::Put(std::span<const FollowedStretch> followed) {
+Result<void> NetworkStore::Put(std::span<const FollowedSection> followed) {
   return database_->AllOrNothing("storing how routes were followed", [&]() -> Result<void> {
-    for (const FollowedStretch& each : followed) {
+    for (const FollowedSection& each : followed) {
       database_->Run(
           "INSERT OR REPLACE INTO followed_stretch (route, teaching, number, passed, lost, "
           "at_unix_ms) VALUES (?1, ?2, ?3, ?4, ?5, ?6)",

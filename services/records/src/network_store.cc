@@ -103,7 +103,7 @@ CREATE TABLE backed_stretch (
   set_unix_ms INTEGER NOT NULL
 ) STRICT;
 )",
-                               .holds = "joints",
+                               .holds = "junctions",
                                .called = "store of the network",
                                .added = R"(
 CREATE TABLE IF NOT EXISTS home (name TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;

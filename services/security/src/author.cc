@@ -26,12 +26,12 @@ struct AuthorIn {
   AgentId operator()(const exchange::MissionRequest& m) { return m.client; }
   AgentId operator()(const exchange::MissionReply& m) { return m.server; }
   AgentId operator()(const exchange::DriveCommand& m) { return m.client; }
-  AgentId operator()(const exchange::GlanceRequest& m) { return m.client; }
-  AgentId operator()(const exchange::Glance& m) { return m.agent; }
+  AgentId operator()(const exchange::SnapshotRequest& m) { return m.client; }
+  AgentId operator()(const exchange::Snapshot& m) { return m.agent; }
   AgentId operator()(const exchange::NetworkEdit& m) { return m.client; }
   AgentId operator()(const exchange::NetworkRequest& m) { return m.client; }
   AgentId operator()(const exchange::NetworkReply& m) { return m.server; }
-  AgentId operator()(const exchange::FollowedStretches& m) { return m.agent; }
+  AgentId operator()(const exchange::FollowedSections& m) { return m.agent; }
   AgentId operator()(const exchange::ReachRequest& m) { return m.client; }
   AgentId operator()(const exchange::ReachReport& m) { return m.agent; }
   AgentId operator()(const exchange::StoreSummary& m) { return m.server; }

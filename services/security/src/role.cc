@@ -88,7 +88,7 @@ TopicUse RightsOf(Role role) {
       use = Together(std::move(use), exchange::HistoryTopics());
       use = Together(std::move(use), exchange::ScoutTopics());
       use = Together(std::move(use), exchange::DriverTopics());
-      use = Together(std::move(use), exchange::GlanceTopics());
+      use = Together(std::move(use), exchange::SnapshotTopics());
       use = Together(std::move(use), exchange::NetworkTopics());
       use = Together(std::move(use), exchange::JoinerTopics());
       use = Together(std::move(use), exchange::ReachTopics());
@@ -98,7 +98,7 @@ TopicUse RightsOf(Role role) {
     case Role::kObserver:
       return Together(
           Together(Together(Together(exchange::ObserverTopics(), exchange::HistoryTopics()),
-                            exchange::GlanceTopics()),
+                            exchange::SnapshotTopics()),
                    exchange::NetworkTopics()),
           exchange::ReachTopics());
   }

@@ -29,9 +29,9 @@ inline int ComplainOfUsage(const CLI::App& app, const Error& error) {
 [[nodiscard]] Command AddExportCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddFleetCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddReachCommand(CLI::App& parent, const program::CommonOptions& common);
-[[nodiscard]] Command AddGlanceCommand(CLI::App& parent, const program::CommonOptions& common);
+[[nodiscard]] Command AddSnapshotCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddImportCommand(CLI::App& parent, const program::CommonOptions& common);
-[[nodiscard]] Command AddJointsCommand(CLI::App& parent);
+[[nodiscard]] Command AddJunctionsCommand(CLI::App& parent);
 [[nodiscard]] Command AddJudgeCommand(CLI::App& parent);
 [[nodiscard]] Command AddKeysCommand(CLI::App& parent);
 // These are send and missions.

@@ -66,7 +66,7 @@ constexpr const char* kNetworkExamples =
     "  trailcast network join hall@12 office@0\n"
     "  trailcast network join ring@31.4 ring@0     # its end is where it began\n"
     "  trailcast network confirm hall@12 office@0.4\n"
-    "  trailcast network confirm all above 0.9     # as 'trailcast-server --joints-auto' does\n"
+    "  trailcast network confirm all above 0.9     # as 'trailcast-server --junctions-auto' does\n"
     "  trailcast network join hall@20 home@0.5 heading 180\n"
     "  trailcast network back dock 0..3\n"
     "  trailcast network close hall 3..7\n"

@@ -81,9 +81,9 @@ Result<RouteDiff> Compare(const program::CommonOptions& common, const DiffOption
   if (!a) return tl::unexpected(a.error());
   auto b = Fetch(*peer, options.b, watch);
   if (!b) return tl::unexpected(b.error());
-  joints::JointOptions asked;
+  junctions::JunctionOptions asked;
   asked.give_up = watch.stop;
-  auto found = joints::CompareAlong(
+  auto found = junctions::CompareAlong(
       {a->segments, a->info.image_width_px}, {b->segments, b->info.image_width_px},
       a->info.camera == b->info.camera, a->info.key.route == b->info.key.route, asked);
   if (watch.stop()) return Fail(ErrorCode::kUnavailable, "interrupted");

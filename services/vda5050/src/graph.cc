@@ -28,7 +28,7 @@ std::string IdOf(const network::Place& place) {
 
 Result<Graph> Graph::Read(const std::vector<std::string>& lines) {
   std::vector<network::Route> routes;
-  std::vector<network::Joint> joints;
+  std::vector<network::Junction> junctions;
   std::vector<network::Condition> conditions;
   std::vector<Named> named;
   std::vector<Named> others;
@@ -45,9 +45,9 @@ Result<Graph> Graph::Read(const std::vector<std::string>& lines) {
     if (!listed.edit || !listed.used) continue;
     switch (listed.edit->kind) {
       case Edit::Kind::kJoin:
-        others.push_back({.place = listed.edit->joint.from});
-        others.push_back({.place = listed.edit->joint.to});
-        joints.push_back(listed.edit->joint);
+        others.push_back({.place = listed.edit->junction.from});
+        others.push_back({.place = listed.edit->junction.to});
+        junctions.push_back(listed.edit->junction);
         break;
       case Edit::Kind::kName:
         named.push_back({listed.edit->named.name, listed.edit->named.place});
@@ -61,11 +61,11 @@ Result<Graph> Graph::Read(const std::vector<std::string>& lines) {
         break;
     }
   }
-  // A route that joints name may not be followed at present.
-  std::erase_if(joints, [&](const network::Joint& joint) {
-    return !names.contains(joint.from.route) || !names.contains(joint.to.route);
+  // A route that junctions name may not be followed at present.
+  std::erase_if(junctions, [&](const network::Junction& junction) {
+    return !names.contains(junction.from.route) || !names.contains(junction.to.route);
   });
-  auto built = network::Network::Build(std::move(routes), joints, conditions);
+  auto built = network::Network::Build(std::move(routes), junctions, conditions);
   if (!built) return tl::unexpected(built.error());
   Graph graph(*std::move(built));
   for (Named& each : others) each.id = IdOf(each.place);

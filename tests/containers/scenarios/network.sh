@@ -12,13 +12,13 @@ scenario_network() {
   place=$(planned place) closed=$(planned closed)
   note "seed $seed"
 
-  contain server server -- --joints-auto
+  contain server server -- --junctions-auto
   await 30 'the server' says server ready
   for name in "${scouts[@]}"; do start_planned "$name" teach; done
   for name in "${scouts[@]}"; do expect_taught "$name"; done
   await 60 'the server to find where they meet' has_said server 'proposed join' 3
   # With other seeds it may be sure of none: the operator confirms what it proposes.
-  [[ $seed != 1 ]] || says server 'taken, as --joints-auto says' ||
+  [[ $seed != 1 ]] || says server 'taken, as --junctions-auto says' ||
     fail 'the server has joined nothing'
   told_network confirm all above 0.7
   # What is too short to be found, the operator knows.

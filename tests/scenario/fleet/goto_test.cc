@@ -32,7 +32,7 @@ class GotoTest : public RobotsTest {
 };
 
 // The office was taught along the hall, so that a robot that changes over goes straight on.
-TEST_F(GotoTest, ARobotChangesOverAtAJointAndKeepsOutOfWhatIsClosed) {
+TEST_F(GotoTest, ARobotChangesOverAtAJunctionAndKeepsOutOfWhatIsClosed) {
   Teach();
   Teach("routes.db", kPath, "office");
   const auto server = Server();
@@ -103,7 +103,7 @@ TEST_F(GotoTest, ARobotThatIsCarriedToAnotherRouteFindsItselfThereAndIsLedOn) {
                                      HasSubstr("it finds itself on dock at 1.")));
   EXPECT_THAT(Tool({"missions"}).output, HasSubstr("follow dock 1"));
   ASSERT_TRUE(agent->WaitForOutput("along the route, where it was to end")) << agent->output();
-  // It looks for the next route up to 0.1 m beyond the joint.
+  // It looks for the next route up to 0.1 m beyond the junction.
   EXPECT_THAT(agent->output(), AnyOf(HasSubstr("arrived: 2.1 m along the route"),
                                      HasSubstr("arrived: 2.2 m along the route")));
   const Place end = TruePlaces().back();

@@ -61,6 +61,16 @@ TEST_F(MissionsTest, ARobotOnDutyFollowsWhatItIsSentAlong) {
   EXPECT_EQ(End(*agent_).status, 0) << agent_->output();
 }
 
+TEST_F(MissionsTest, ProgramsAreToldThatARobotIsLostWithoutReadingItsWords) {
+  robot_ = Robot("robot1", {}, "5.8,7\n2.3,7\n");  // in the next room
+  agent_ = Serve("robot1");
+  ASSERT_TRUE(agent_->WaitForOutput("available as 'robot1'")) << agent_->output();
+  const Ended sent = Send({"follow", "hall", "--wait", "--json"});
+  EXPECT_EQ(sent.status, 1) << sent.output << agent_->output();
+  EXPECT_THAT(sent.output, HasSubstr("\"state\": \"failed\"")) << agent_->output();
+  EXPECT_THAT(sent.output, HasSubstr("\"waits_for\": \"place\"")) << agent_->output();
+}
+
 TEST_F(MissionsTest, ASecondOneQueuesAndOnesThatCannotBeDoneAreRefusedInWords) {
   GoOnDuty();
   const Ended unknown = Send({"follow", "attic", "--wait"});

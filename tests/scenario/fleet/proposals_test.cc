@@ -46,7 +46,7 @@ class ProposalsTest : public ProgramsTest {
   int tools_ = 0;
 };
 
-TEST_F(ProposalsTest, AJointThatIsFoundIsAnOperatorsToMakeOrToRefuse) {
+TEST_F(ProposalsTest, AJunctionThatIsFoundIsAnOperatorsToMakeOrToRefuse) {
   auto server = Server();
   const Ended hall = Teach("hall", 1.0);
   ASSERT_EQ(hall.status, 0) << hall.output;

@@ -12,8 +12,8 @@
 
 #include "agent/duty/src/rerouting.h"
 #include "agent/link/mission_handler.h"
-#include "route_server/network/lane_keeper.h"
 #include "route_server/network/replanning.h"
+#include "route_server/network/zone_admission.h"
 #include "services/fleet/network_client.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/temp_dir.h"
@@ -65,7 +65,7 @@ class LanesModel {
     if (has_bay_) Put(Bay(), Name(Bay()), kBay_m);
     Restart();
     for (std::size_t i = 0; i < corridors_; ++i) AddLanes(i);
-    for (std::size_t i = 0; i < corridors_; ++i) AddJoints(i);
+    for (std::size_t i = 0; i < corridors_; ++i) AddJunctions(i);
     if (has_bay_) AddBay();
     loses_ = Between(0.0, 0.4);
     restarts_ = seed % 2 == 0;
@@ -121,11 +121,11 @@ class LanesModel {
     network_.reset();
     missions_.reset();
     network_ =
-        server::NetworkBoard::Open(AgentId("server"),
-                                   store::NetworkStore::Open(folder_ / "joints").value(), routes_)
+        server::NetworkRegistry::Open(
+            AgentId("server"), store::NetworkStore::Open(folder_ / "joints").value(), routes_)
             .value();
-    missions_ = server::MissionBoard::Open(AgentId("server"),
-                                           store::MissionStore::Open(folder_ / "missions").value())
+    missions_ = server::MissionRegistry::Open(
+                    AgentId("server"), store::MissionStore::Open(folder_ / "missions").value())
                     .value();
     replanning_.emplace(*missions_, *network_);
     keeper_.emplace(*missions_, *network_);
@@ -167,7 +167,7 @@ class LanesModel {
         return {route, along_m};
     }
   }
-  void AddJoints(std::size_t corridor) {
+  void AddJunctions(std::size_t corridor) {
     const double length_m = lengths_m_[corridor];
     for (const auto& [from, to] : {std::pair(0, 1), std::pair(1, 0)}) {
       Edit(fmt::format("join {}@{:g} {}@0", Name(2 * corridor + from), std::floor(length_m),
@@ -388,10 +388,10 @@ class LanesModel {
   std::mt19937 random_;
   test::TempDir folder_;
   test::MemoryStore routes_;
-  std::unique_ptr<server::NetworkBoard> network_;
-  std::unique_ptr<server::MissionBoard> missions_;
+  std::unique_ptr<server::NetworkRegistry> network_;
+  std::unique_ptr<server::MissionRegistry> missions_;
   std::optional<server::Replanning> replanning_;
-  std::optional<server::LaneKeeper> keeper_;
+  std::optional<server::ZoneAdmission> keeper_;
   std::size_t corridors_ = 1;
   std::vector<double> lengths_m_;
   std::vector<network::Lane> lanes_;

@@ -358,8 +358,8 @@ TEST_F(DeskTest, ThoseWhoLookThroughOneCameraAtOnceShareThePictures) {
   for (int i = 0; i < kLookers; ++i) {
     seen.push_back(std::async(std::launch::async, [&] {
       all.arrive_and_wait();
-      const auto glance = desk_.Look(AgentId("robot1"));
-      return glance && *glance && (*glance)->picture.size() == 3;
+      const auto snapshot = desk_.Look(AgentId("robot1"));
+      return snapshot && *snapshot && (*snapshot)->picture.size() == 3;
     }));
   }
   int asked = 0;
@@ -371,13 +371,13 @@ TEST_F(DeskTest, ThoseWhoLookThroughOneCameraAtOnceShareThePictures) {
   test::Await(
       [&] {
         for (const exchange::Message& message : robot_->Take(milliseconds(10))) {
-          const auto* request = std::get_if<exchange::GlanceRequest>(&message);
+          const auto* request = std::get_if<exchange::SnapshotRequest>(&message);
           if (request == nullptr) continue;
           ++asked;
-          EXPECT_TRUE(robot_->Publish(exchange::Glance{.agent = request->agent,
-                                                       .client = request->client,
-                                                       .request = request->request,
-                                                       .picture = {1, 2, 3}}));
+          EXPECT_TRUE(robot_->Publish(exchange::Snapshot{.agent = request->agent,
+                                                         .client = request->client,
+                                                         .request = request->request,
+                                                         .picture = {1, 2, 3}}));
         }
         return all_have_seen();
       },
@@ -387,9 +387,9 @@ TEST_F(DeskTest, ThoseWhoLookThroughOneCameraAtOnceShareThePictures) {
 }
 
 TEST_F(DeskTest, ARobotThatShowsNothingIsWaitedForAndThenNot) {
-  const auto glance = desk_.Look(AgentId("robot1"));
-  ASSERT_TRUE(glance) << glance.error().message;
-  EXPECT_EQ(*glance, nullptr);
+  const auto snapshot = desk_.Look(AgentId("robot1"));
+  ASSERT_TRUE(snapshot) << snapshot.error().message;
+  EXPECT_EQ(*snapshot, nullptr);
 }
 
 TEST_F(DeskTest, ClosedItLetsGoWhoWaits) {

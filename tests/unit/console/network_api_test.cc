@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "route_server/network/network_board.h"
+#include "route_server/network/network_registry.h"
 #include "route_server/routes/history.h"
 #include "services/base/unix_time.h"
 #include "services/console/web.h"
@@ -31,9 +31,9 @@ class NetworkApiTest : public testing::Test {
   void Serve() {
     Put(1, "hall", 20.0);
     Put(2, "office", 10.0);
-    board_ = server::NetworkBoard::Open(
-                 AgentId("barn"), store::NetworkStore::Open(folder_ / "joints").value(), routes_)
-                 .value();
+    registry_ = server::NetworkRegistry::Open(
+                    AgentId("barn"), store::NetworkStore::Open(folder_ / "joints").value(), routes_)
+                    .value();
     history_ = server::History::Open(AgentId("barn"),
                                      store::HistoryStore::Open(folder_ / "history").value(),
                                      routes_, kBegan_unix_ms)
@@ -46,10 +46,10 @@ class NetworkApiTest : public testing::Test {
             if (asked->words.empty()) ++listed_;
             const auto since = network::ParseChangesSince(asked->words);
             (void)exchange->Publish(since ? history_->Answer(*asked, *since, kBegan_unix_ms)
-                                          : board_->Answer(*asked));
+                                          : registry_->Answer(*asked));
           } else if (const auto* edit = std::get_if<exchange::NetworkEdit>(&message)) {
-            (void)exchange->Publish(board_->Change(*edit, NowUnixMs()));
-            (void)history_->Add(board_->TakeMade());
+            (void)exchange->Publish(registry_->Change(*edit, NowUnixMs()));
+            (void)history_->Add(registry_->TakeMade());
           }
         }
       }
@@ -87,7 +87,7 @@ class NetworkApiTest : public testing::Test {
   static constexpr std::int64_t kBegan_unix_ms = 1000;
   test::TempDir folder_;
   test::MemoryStore routes_;
-  std::unique_ptr<server::NetworkBoard> board_;
+  std::unique_ptr<server::NetworkRegistry> registry_;
   std::unique_ptr<server::History> history_;
   exchange::InProcessBus bus_;
   std::atomic<int> listed_{0};

@@ -80,7 +80,7 @@ TEST(NetworkListTest, ASearchIsInNamesOfRoutesAndOfPlaces) {
   EXPECT_EQ(halls["elsewhere"], json({{{"route", "hall"}, {"joints", 2}}}));
 }
 
-TEST(NetworkListTest, AroundARouteAreThoseThatAreNearestByJoints) {
+TEST(NetworkListTest, AroundARouteAreThoseThatAreNearestByJunctions) {
   EXPECT_THAT(RoutesOf(Part(ThreeRoutes(), {.around = "hall", .limit = 2})),
               UnorderedElementsAre("hall", "Office"));
   EXPECT_THAT(RoutesOf(Part(ThreeRoutes(), {.around = "yard", .limit = 2})),

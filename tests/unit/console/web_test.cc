@@ -305,16 +305,16 @@ TEST_F(WebTest, WhatACameraSeesIsAPictureOrWhyThereIsNone) {
     bool blind = false;
     while (!ends) {
       for (const exchange::Message& message : robot->Take(milliseconds(10))) {
-        const auto* request = std::get_if<exchange::GlanceRequest>(&message);
+        const auto* request = std::get_if<exchange::SnapshotRequest>(&message);
         if (request == nullptr || request->agent != AgentId("robot1")) continue;
-        exchange::Glance glance{.agent = request->agent,
-                                .client = request->client,
-                                .request = request->request,
-                                .marked = true,
-                                .detail = "turns \xC3\xA9 left"};
-        if (!blind) glance.picture = {0xFF, 0xD8, 0x00};
+        exchange::Snapshot snapshot{.agent = request->agent,
+                                    .client = request->client,
+                                    .request = request->request,
+                                    .marked = true,
+                                    .detail = "turns \xC3\xA9 left"};
+        if (!blind) snapshot.picture = {0xFF, 0xD8, 0x00};
         blind = true;
-        (void)robot->Publish(glance);
+        (void)robot->Publish(snapshot);
       }
     }
   });

@@ -154,6 +154,7 @@ TEST(MissionTexts, AreATableForPeopleAndJsonForPrograms) {
                                       .last = {.agent = AgentId("robot1"),
                                                .mission = "m1",
                                                .state = State::kFailed,
+                                               .waits_for = mission::WaitsFor::kPlace,
                                                .detail = "LOST: \"nothing\" is seen"},
                                       .sent_unix_ms = 1000,
                                       .changed_unix_ms = 2000}};
@@ -162,8 +163,10 @@ TEST(MissionTexts, AreATableForPeopleAndJsonForPrograms) {
       "mission  robot      age  state      orders       sent by  why\n"
       "m1       robot1    60 s  failed     follow hall  desk     LOST: \"nothing\" is seen\n");
   EXPECT_EQ(MissionsTable({}, 0), "no missions\n");
-  EXPECT_THAT(MissionsJson(missions).dump(),
-              HasSubstr(R"("sent_by":"desk","state":"failed","task":0,"detail":"LOST: \")"));
+  EXPECT_THAT(
+      MissionsJson(missions).dump(),
+      HasSubstr(
+          R"("sent_by":"desk","state":"failed","task":0,"waits_for":"place","detail":"LOST: \")"));
   EXPECT_EQ(MissionsJson({}).dump(), "[]");
 }
 

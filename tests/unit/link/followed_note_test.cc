@@ -12,7 +12,7 @@
 namespace trailcast::agent {
 namespace {
 
-using exchange::FollowedStretches;
+using exchange::FollowedSections;
 using test::KeyNumber;
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -50,9 +50,9 @@ class FollowedNoteTest : public testing::Test {
     std::vector<std::string> told;
     for (const exchange::Message& message : server_->Take(std::chrono::milliseconds(0))) {
       EXPECT_TRUE(exchange::CheckBounds(message));
-      const auto& followed = std::get<FollowedStretches>(message);
+      const auto& followed = std::get<FollowedSections>(message);
       EXPECT_EQ(followed.agent, AgentId("robot1"));
-      for (const FollowedStretches::Stretch& each : followed.stretches) {
+      for (const FollowedSections::Section& each : followed.sections) {
         told.push_back(fmt::format("{}: {} of {}", each.number, each.lost, each.passed));
       }
     }
@@ -90,7 +90,7 @@ TEST_F(FollowedNoteTest, WhoFindsThePathAgainWasLostThereOnce) {
   EXPECT_THAT(Told(), ElementsAre("2: 0 of 1"));
 }
 
-TEST_F(FollowedNoteTest, StandingAtABorderOfTwoStretchesIsOnePassage) {
+TEST_F(FollowedNoteTest, StandingAtABorderOfTwoSectionsIsOnePassage) {
   for (int i = 0; i < 20; ++i) Note(i % 2 == 0 ? 4.9 : 5.1);
   EXPECT_THAT(Told(), ElementsAre("0: 0 of 1"));
   Drive(0.0, 6.0);  // it comes anew
@@ -103,7 +103,7 @@ TEST_F(FollowedNoteTest, LapsCountEach) {
   EXPECT_THAT(Told(), ElementsAre("0: 0 of 3", "1: 0 of 3", "2: 0 of 3", "3: 0 of 3"));
 }
 
-TEST_F(FollowedNoteTest, WhatIsNoFaultOfTheStretchDoesNotCount) {
+TEST_F(FollowedNoteTest, WhatIsNoFaultOfTheSectionDoesNotCount) {
   Drive(0.0, 3.0);
   Note(3.0, Trust::kCovered);
   Note(3.0, Trust::kLost);
@@ -154,7 +154,7 @@ TEST_F(FollowedNoteTest, WhatNobodyHearsIsKeptAsFarAsThereIsRoom) {
   route_.length_m = 60'000.0;
   for (int i = 0; i < 5000; ++i) Note(1.0 + 5.0 * i);
   const auto told = Told();
-  EXPECT_THAT(told, SizeIs(FollowedNote::kMostStretches));
+  EXPECT_THAT(told, SizeIs(FollowedNote::kMostSections));
   EXPECT_EQ(told.back(), "4998: 0 of 1") << "what was driven last";
   route_.key = KeyNumber(2);
   for (std::uint32_t i = 0; i <= exchange::kMaxTimesPassed; ++i) {

@@ -301,6 +301,16 @@ TEST_F(MissionHandlerTest, WhetherItIsQueuedOrAdmittedIsNotReadInWords) {
   EXPECT_EQ(Due().back().waits_for, mission::WaitsFor::kNothing);
 }
 
+TEST_F(MissionHandlerTest, AMissionThatEndedBecauseItsRobotIsLostTellsThatAfterARestartToo) {
+  (void)Answer(For("m1"));
+  handler_->Tell(State::kFailed, "xyzzy", mission::WaitsFor::kPlace);
+  EXPECT_EQ(Due().back().waits_for, mission::WaitsFor::kPlace);
+  Restart();
+  const Report remembered = Due().back();
+  EXPECT_EQ(remembered.state, State::kFailed);
+  EXPECT_EQ(remembered.waits_for, mission::WaitsFor::kPlace);
+}
+
 TEST_F(MissionHandlerTest, AnswersOthersNot) {
   Mission mission = For("m1");
   mission.agent = AgentId("robot2");

@@ -14,7 +14,7 @@ class SnapshotHandlerTest : public testing::Test {
  protected:
   void Ask(const std::string& client, std::uint64_t request, const std::string& robot = "robot1") {
     handler_.Handle(
-        exchange::GlanceRequest{
+        exchange::SnapshotRequest{
             .agent = AgentId(robot), .client = AgentId(client), .request = request},
         now_);
   }

@@ -21,7 +21,7 @@ using testing::IsEmpty;
 class NetworkTest : public testing::Test {
  protected:
   [[nodiscard]] Network Made() const {
-    auto made = Network::Build(routes_, joints_, conditions_);
+    auto made = Network::Build(routes_, junctions_, conditions_);
     EXPECT_TRUE(made) << made.error().message;
     return *std::move(made);
   }
@@ -40,47 +40,47 @@ class NetworkTest : public testing::Test {
 
   std::vector<Route> routes_{
       {"h", "hall", 20.0}, {"o", "office", 10.0}, {"y", "yard", 30.0}, {"r", "ring", 8.0}};
-  std::vector<Joint> joints_{{{"h", 12.0}, {"o", 0.0}},
-                             {{"h", 20.0}, {"y", 0.0}},
-                             {{"y", 30.0}, {"o", 4.0}},
-                             {{"r", 8.0}, {"r", 0.0}}};
+  std::vector<Junction> junctions_{{{"h", 12.0}, {"o", 0.0}},
+                                   {{"h", 20.0}, {"y", 0.0}},
+                                   {{"y", 30.0}, {"o", 4.0}},
+                                   {{"r", 8.0}, {"r", 0.0}}};
   std::vector<Condition> conditions_;
 };
 
-TEST_F(NetworkTest, AWayLeadsOverJointsInTheDirectionThatWasTaught) {
+TEST_F(NetworkTest, AWayLeadsOverJunctionsInTheDirectionThatWasTaught) {
   const Way way = Found({"h", 2.0}, {"o", 8.0});
-  EXPECT_THAT(way.stretches, ElementsAre(Stretch{"h", 2.0, 12.0}, Stretch{"o", 0.0, 8.0}));
+  EXPECT_THAT(way.sections, ElementsAre(Section{"h", 2.0, 12.0}, Section{"o", 0.0, 8.0}));
   EXPECT_DOUBLE_EQ(way.length_m, 18.0);
-  EXPECT_THAT(Found({"h", 2.0}, {"h", 13.0}).stretches, ElementsAre(Stretch{"h", 2.0, 13.0}));
-  EXPECT_THAT(Found({"h", 2.0}, {"h", 2.0}).stretches, IsEmpty());
-  EXPECT_THAT(Found({"h", 12.0}, {"o", 0.0}).stretches, IsEmpty()) << "it stands at the joint";
+  EXPECT_THAT(Found({"h", 2.0}, {"h", 13.0}).sections, ElementsAre(Section{"h", 2.0, 13.0}));
+  EXPECT_THAT(Found({"h", 2.0}, {"h", 2.0}).sections, IsEmpty());
+  EXPECT_THAT(Found({"h", 12.0}, {"o", 0.0}).sections, IsEmpty()) << "it stands at the junction";
   EXPECT_THAT(Why({"o", 1.0}, {"h", 2.0}),
               AllOf(HasSubstr("no way leads from office@1 to hall@2"), HasSubstr("junctions")));
   EXPECT_THAT(Why({"h", 5.0}, {"h", 2.0}), HasSubstr("no way leads from hall@5 to hall@2"));
 }
 
-TEST_F(NetworkTest, AJointOfBothWaysLeadsBack) {
-  joints_.push_back({{"o", 10.0}, {"h", 1.0}, true});
-  EXPECT_THAT(Found({"o", 9.0}, {"h", 3.0}).stretches,
-              ElementsAre(Stretch{"o", 9.0, 10.0}, Stretch{"h", 1.0, 3.0}));
-  EXPECT_THAT(Found({"h", 0.0}, {"o", 10.0}).stretches, ElementsAre(Stretch{"h", 0.0, 1.0}));
+TEST_F(NetworkTest, AJunctionOfBothWaysLeadsBack) {
+  junctions_.push_back({{"o", 10.0}, {"h", 1.0}, true});
+  EXPECT_THAT(Found({"o", 9.0}, {"h", 3.0}).sections,
+              ElementsAre(Section{"o", 9.0, 10.0}, Section{"h", 1.0, 3.0}));
+  EXPECT_THAT(Found({"h", 0.0}, {"o", 10.0}).sections, ElementsAre(Section{"h", 0.0, 1.0}));
 }
 
 TEST_F(NetworkTest, ARingIsDrivenOnToWhatLiesBehind) {
-  EXPECT_THAT(Found({"r", 6.0}, {"r", 2.0}).stretches,
-              ElementsAre(Stretch{"r", 6.0, 8.0}, Stretch{"r", 0.0, 2.0}));
-  EXPECT_THAT(Found({"r", 2.0}, {"r", 6.0}).stretches, ElementsAre(Stretch{"r", 2.0, 6.0}));
+  EXPECT_THAT(Found({"r", 6.0}, {"r", 2.0}).sections,
+              ElementsAre(Section{"r", 6.0, 8.0}, Section{"r", 0.0, 2.0}));
+  EXPECT_THAT(Found({"r", 2.0}, {"r", 6.0}).sections, ElementsAre(Section{"r", 2.0, 6.0}));
 }
 
-TEST_F(NetworkTest, AClosedStretchIsAvoidedOrNamed) {
+TEST_F(NetworkTest, AClosedSectionIsAvoidedOrNamed) {
   conditions_ = {{.route = "o", .from_m = 1.0, .to_m = 2.0, .closed = true}};
   EXPECT_THAT(
-      Found({"h", 2.0}, {"o", 8.0}).stretches,
-      ElementsAre(Stretch{"h", 2.0, 20.0}, Stretch{"y", 0.0, 30.0}, Stretch{"o", 4.0, 8.0}));
-  EXPECT_THAT(Found({"h", 2.0}, {"o", 1.0}).stretches,
-              ElementsAre(Stretch{"h", 2.0, 12.0}, Stretch{"o", 0.0, 1.0}))
+      Found({"h", 2.0}, {"o", 8.0}).sections,
+      ElementsAre(Section{"h", 2.0, 20.0}, Section{"y", 0.0, 30.0}, Section{"o", 4.0, 8.0}));
+  EXPECT_THAT(Found({"h", 2.0}, {"o", 1.0}).sections,
+              ElementsAre(Section{"h", 2.0, 12.0}, Section{"o", 0.0, 1.0}))
       << "up to where it is closed";
-  EXPECT_THAT(Found({"o", 2.0}, {"o", 3.0}).stretches, ElementsAre(Stretch{"o", 2.0, 3.0}));
+  EXPECT_THAT(Found({"o", 2.0}, {"o", 3.0}).sections, ElementsAre(Section{"o", 2.0, 3.0}));
   EXPECT_THAT(
       Why({"h", 2.0}, {"o", 1.5}),
       AllOf(HasSubstr("every way from hall@2 to office@1.5 is closed"), HasSubstr("office 1..2")));
@@ -93,12 +93,12 @@ TEST_F(NetworkTest, AClosedStretchIsAvoidedOrNamed) {
 TEST_F(NetworkTest, ARobotThatIsOnAClosedPartDrivesOutOfItAndIntoNoOther) {
   conditions_ = {{.route = "h", .from_m = 4.0, .to_m = 14.0, .closed = true}};
   const auto way = [this](const Place& from, const Place& to) { return Made().WayOn(from, to); };
-  EXPECT_THAT(way({"h", 6.0}, {"o", 8.0})->stretches,
-              ElementsAre(Stretch{"h", 6.0, 12.0}, Stretch{"o", 0.0, 8.0}))
-      << "by a joint within it";
-  EXPECT_THAT(way({"h", 6.0}, {"h", 9.0})->stretches, ElementsAre(Stretch{"h", 6.0, 9.0}));
-  EXPECT_THAT(way({"h", 6.0}, {"y", 1.0})->stretches,
-              ElementsAre(Stretch{"h", 6.0, 20.0}, Stretch{"y", 0.0, 1.0}));
+  EXPECT_THAT(way({"h", 6.0}, {"o", 8.0})->sections,
+              ElementsAre(Section{"h", 6.0, 12.0}, Section{"o", 0.0, 8.0}))
+      << "by a junction within it";
+  EXPECT_THAT(way({"h", 6.0}, {"h", 9.0})->sections, ElementsAre(Section{"h", 6.0, 9.0}));
+  EXPECT_THAT(way({"h", 6.0}, {"y", 1.0})->sections,
+              ElementsAre(Section{"h", 6.0, 20.0}, Section{"y", 0.0, 1.0}));
   for (const double barely_m : {3.0, 4.0, 4.3}) {
     EXPECT_THAT(way({"h", barely_m}, {"o", 8.0}).error().message, HasSubstr("hall 4..14"));
   }
@@ -123,34 +123,34 @@ TEST_F(NetworkTest, ARobotThatIsOnAClosedPartDrivesOutOfItAndIntoNoOther) {
 TEST_F(NetworkTest, WhereItMayARobotDrivesBackwards) {
   EXPECT_THAT(Why({"o", 8.0}, {"o", 3.0}), HasSubstr("no way leads"));
   conditions_ = {{.route = "o", .from_m = 2.0, .to_m = 9.0, .backed = true}};
-  EXPECT_THAT(Found({"o", 8.0}, {"o", 3.0}).stretches, ElementsAre(Stretch{"o", 8.0, 3.0}));
+  EXPECT_THAT(Found({"o", 8.0}, {"o", 3.0}).sections, ElementsAre(Section{"o", 8.0, 3.0}));
   EXPECT_DOUBLE_EQ(Found({"o", 8.0}, {"o", 3.0}).length_m, 5.0);
-  EXPECT_THAT(Found({"o", 9.0}, {"o", 2.0}).stretches, ElementsAre(Stretch{"o", 9.0, 2.0}));
+  EXPECT_THAT(Found({"o", 9.0}, {"o", 2.0}).sections, ElementsAre(Section{"o", 9.0, 2.0}));
   EXPECT_THAT(Why({"o", 8.0}, {"o", 1.0}), HasSubstr("no way leads"));
   EXPECT_THAT(Why({"o", 9.5}, {"o", 3.0}), HasSubstr("no way leads"));
-  joints_.push_back({{"o", 4.5}, {"r", 1.0}});
-  EXPECT_THAT(Found({"o", 8.0}, {"r", 3.0}).stretches,
-              ElementsAre(Stretch{"o", 8.0, 4.5}, Stretch{"r", 1.0, 3.0}));
-  EXPECT_THAT(Found({"h", 12.0}, {"o", 8.0}).stretches, ElementsAre(Stretch{"o", 0.0, 8.0}));
-  EXPECT_THAT(Found({"o", 2.0}, {"o", 9.0}).stretches, ElementsAre(Stretch{"o", 2.0, 9.0}));
+  junctions_.push_back({{"o", 4.5}, {"r", 1.0}});
+  EXPECT_THAT(Found({"o", 8.0}, {"r", 3.0}).sections,
+              ElementsAre(Section{"o", 8.0, 4.5}, Section{"r", 1.0, 3.0}));
+  EXPECT_THAT(Found({"h", 12.0}, {"o", 8.0}).sections, ElementsAre(Section{"o", 0.0, 8.0}));
+  EXPECT_THAT(Found({"o", 2.0}, {"o", 9.0}).sections, ElementsAre(Section{"o", 2.0, 9.0}));
 }
 
 TEST_F(NetworkTest, BackwardsAMetreCountsAsTwo) {
   conditions_ = {{.route = "r", .from_m = 0.0, .to_m = 8.0, .backed = true}};
-  EXPECT_THAT(Found({"r", 5.0}, {"r", 3.0}).stretches, ElementsAre(Stretch{"r", 5.0, 3.0}));
-  EXPECT_THAT(Found({"r", 7.0}, {"r", 2.0}).stretches,
-              ElementsAre(Stretch{"r", 7.0, 8.0}, Stretch{"r", 0.0, 2.0}))
+  EXPECT_THAT(Found({"r", 5.0}, {"r", 3.0}).sections, ElementsAre(Section{"r", 5.0, 3.0}));
+  EXPECT_THAT(Found({"r", 7.0}, {"r", 2.0}).sections,
+              ElementsAre(Section{"r", 7.0, 8.0}, Section{"r", 0.0, 2.0}))
       << "the ring is shorter";
   conditions_.push_back({.route = "r", .from_m = 1.0, .to_m = 4.0, .speed = 0.5});
-  EXPECT_THAT(Found({"r", 5.0}, {"r", 3.0}).stretches,
-              ElementsAre(Stretch{"r", 5.0, 4.0}, Stretch{"r", 4.0, 3.0, 0.5}));
+  EXPECT_THAT(Found({"r", 5.0}, {"r", 3.0}).sections,
+              ElementsAre(Section{"r", 5.0, 4.0}, Section{"r", 4.0, 3.0, 0.5}));
 }
 
 TEST_F(NetworkTest, WhatIsClosedIsSoBackwards) {
   conditions_ = {{.route = "o", .from_m = 1.0, .to_m = 9.0, .backed = true},
                  {.route = "o", .from_m = 4.0, .to_m = 6.0, .closed = true}};
   EXPECT_THAT(Why({"o", 8.0}, {"o", 3.0}), HasSubstr("on the least closed: office 4..6"));
-  EXPECT_THAT(Found({"o", 8.0}, {"o", 6.0}).stretches, ElementsAre(Stretch{"o", 8.0, 6.0}));
+  EXPECT_THAT(Found({"o", 8.0}, {"o", 6.0}).sections, ElementsAre(Section{"o", 8.0, 6.0}));
   const Network network = Made();
   EXPECT_EQ(network.FirstClosed({"o", 8.0, 3.0})->from_m, 4.0);
   EXPECT_EQ(network.FirstClosed({"o", 8.0, 6.0}), std::nullopt);
@@ -158,40 +158,40 @@ TEST_F(NetworkTest, WhatIsClosedIsSoBackwards) {
   EXPECT_EQ(network.FirstClosed({"o", 5.0, 1.0}), std::nullopt) << "it is in there";
   const auto out = network.WayOn({"o", 5.0}, {"o", 3.0});
   ASSERT_TRUE(out) << out.error().message;
-  EXPECT_THAT(out->stretches, ElementsAre(Stretch{"o", 5.0, 3.0}));
+  EXPECT_THAT(out->sections, ElementsAre(Section{"o", 5.0, 3.0}));
 }
 
 TEST_F(NetworkTest, WhoChangesOverToTheOppositeWayTurnsRound) {
   constexpr double kRound_rad = 3.0;
-  joints_ = {{{"h", 12.0}, {"o", 1.0}, true, Lie{.turn_rad = kRound_rad}},
-             {{"o", 10.0}, {"y", 0.0}, false, Lie{.turn_rad = 0.4}}};
-  const auto there = Found({"h", 2.0}, {"y", 5.0}).stretches;
-  EXPECT_THAT(there, ElementsAre(Stretch{"h", 2.0, 12.0}, Stretch{"o", 1.0, 10.0, 1.0, kRound_rad},
-                                 Stretch{"y", 0.0, 5.0}));
-  EXPECT_THAT(Found({"o", 0.0}, {"h", 15.0}).stretches,
-              ElementsAre(Stretch{"o", 0.0, 1.0}, Stretch{"h", 12.0, 15.0, 1.0, -kRound_rad}));
+  junctions_ = {{{"h", 12.0}, {"o", 1.0}, true, Lie{.turn_rad = kRound_rad}},
+                {{"o", 10.0}, {"y", 0.0}, false, Lie{.turn_rad = 0.4}}};
+  const auto there = Found({"h", 2.0}, {"y", 5.0}).sections;
+  EXPECT_THAT(there, ElementsAre(Section{"h", 2.0, 12.0}, Section{"o", 1.0, 10.0, 1.0, kRound_rad},
+                                 Section{"y", 0.0, 5.0}));
+  EXPECT_THAT(Found({"o", 0.0}, {"h", 15.0}).sections,
+              ElementsAre(Section{"o", 0.0, 1.0}, Section{"h", 12.0, 15.0, 1.0, -kRound_rad}));
   EXPECT_FALSE(GoesOn({"h", 2.0, 12.0}, {"h", 12.0, 13.0, 1.0, kRound_rad}));
   EXPECT_FALSE(GoesOn({"h", 2.0, 12.0}, {"h", 12.0, 11.0}));
 }
 
-TEST_F(NetworkTest, SpeedAndCostDecideAndSpeedIsToldOfEachStretch) {
+TEST_F(NetworkTest, SpeedAndCostDecideAndSpeedIsToldOfEachSection) {
   conditions_ = {{.route = "o", .from_m = 2.0, .to_m = 3.0, .speed = 0.5}};
-  EXPECT_THAT(Found({"h", 11.0}, {"o", 8.0}).stretches,
-              ElementsAre(Stretch{"h", 11.0, 12.0}, Stretch{"o", 0.0, 2.0},
-                          Stretch{"o", 2.0, 3.0, 0.5}, Stretch{"o", 3.0, 8.0}));
+  EXPECT_THAT(Found({"h", 11.0}, {"o", 8.0}).sections,
+              ElementsAre(Section{"h", 11.0, 12.0}, Section{"o", 0.0, 2.0},
+                          Section{"o", 2.0, 3.0, 0.5}, Section{"o", 3.0, 8.0}));
   conditions_.push_back({.route = "o", .from_m = 1.0, .to_m = 2.0, .cost = 100.0});
   const Way way = Found({"h", 11.0}, {"o", 8.0});
   EXPECT_DOUBLE_EQ(way.length_m, 43.0) << "round by the yard, in metres that are driven";
-  EXPECT_THAT(way.stretches.back(), (Stretch{"o", 4.0, 8.0}));
+  EXPECT_THAT(way.sections.back(), (Section{"o", 4.0, 8.0}));
 }
 
-TEST_F(NetworkTest, OfWaysOfAboutOneLengthThatWithFewerJointsIsTaken) {
+TEST_F(NetworkTest, OfWaysOfAboutOneLengthThatWithFewerJunctionsIsTaken) {
   routes_.push_back({"s", "short cut", 3.9});
-  joints_.push_back({{"h", 1.0}, {"s", 0.0}});
-  joints_.push_back({{"s", 3.9}, {"h", 5.0}});
-  EXPECT_THAT(Found({"h", 0.0}, {"h", 6.0}).stretches, ElementsAre(Stretch{"h", 0.0, 6.0}));
-  joints_.back().to.along_m = 10.0;
-  EXPECT_EQ(Found({"h", 0.0}, {"h", 12.0}).stretches.size(), 3U);
+  junctions_.push_back({{"h", 1.0}, {"s", 0.0}});
+  junctions_.push_back({{"s", 3.9}, {"h", 5.0}});
+  EXPECT_THAT(Found({"h", 0.0}, {"h", 6.0}).sections, ElementsAre(Section{"h", 0.0, 6.0}));
+  junctions_.back().to.along_m = 10.0;
+  EXPECT_EQ(Found({"h", 0.0}, {"h", 12.0}).sections.size(), 3U);
 }
 
 TEST_F(NetworkTest, WhatIsNotThereIsNamed) {
@@ -199,19 +199,19 @@ TEST_F(NetworkTest, WhatIsNotThereIsNamed) {
   EXPECT_THAT(Why({"h", 1.0}, {"o", 11.0}), HasSubstr("'office' is 10.0 m long: there is no 11 m"));
   EXPECT_THAT(Why({"h", -1.0}, {"o", 1.0}), HasSubstr("there is no -1 m"));
   EXPECT_THAT(Why({"h", std::numeric_limits<double>::quiet_NaN()}, {"o", 1.0}), HasSubstr("nan"));
-  EXPECT_THAT(Found({"h", 20.3}, {"y", 1.0}).stretches, ElementsAre(Stretch{"y", 0.0, 1.0}))
+  EXPECT_THAT(Found({"h", 20.3}, {"y", 1.0}).sections, ElementsAre(Section{"y", 0.0, 1.0}))
       << "a robot that has arrived may stand a little beyond the end";
-  joints_.push_back({{"h", 30.0}, {"o", 0.0}});
-  const auto beyond = Network::Build(routes_, joints_, {});
+  junctions_.push_back({{"h", 30.0}, {"o", 0.0}});
+  const auto beyond = Network::Build(routes_, junctions_, {});
   ASSERT_FALSE(beyond);
   EXPECT_THAT(beyond.error().message, HasSubstr("a junction: route 'hall' is 20.0 m long"));
   EXPECT_FALSE(Network::Build({{"h", "hall", 1.0}, {"h", "hall", 1.0}}, {}, {}));
   conditions_ = {{.route = "x", .to_m = 1.0, .closed = true}};
-  joints_.pop_back();
-  EXPECT_TRUE(Network::Build(routes_, joints_, conditions_));
+  junctions_.pop_back();
+  EXPECT_TRUE(Network::Build(routes_, junctions_, conditions_));
 }
 
-// Random networks, beside all ways of up to so many joints, tried one by one.
+// Random networks, beside all ways of up to so many junctions, tried one by one.
 TEST_F(NetworkTest, NoShorterWayIsThereThanTheOneFound) {
   std::mt19937 random(7);
   const auto metres = [&](double most) {
@@ -223,8 +223,8 @@ TEST_F(NetworkTest, NoShorterWayIsThereThanTheOneFound) {
     const std::vector<Route> routes{
         {"a", "a", kLength_m}, {"b", "b", kLength_m}, {"c", "c", kLength_m}};
     const auto place = [&] { return Place{routes[random() % 3].id, metres(kLength_m)}; };
-    std::vector<Joint> joints;
-    for (int i = 0; i < 5; ++i) joints.push_back({place(), place()});
+    std::vector<Junction> junctions;
+    for (int i = 0; i < 5; ++i) junctions.push_back({place(), place()});
     const std::vector<Condition> conditions{
         {.route = "b", .from_m = 4.0, .to_m = 5.0, .closed = true},
         {.route = "c", .from_m = 3.0, .to_m = 8.0, .backed = true}};
@@ -239,25 +239,26 @@ TEST_F(NetworkTest, NoShorterWayIsThereThanTheOneFound) {
       if (begin.route != end.route || begin.along_m > end.along_m) return kNever;
       return barred && begin.along_m < end.along_m ? kNever : end.along_m - begin.along_m;
     };
-    const std::function<double(const Place&, int)> best = [&](const Place& at, int joints_left) {
+    const std::function<double(const Place&, int)> best = [&](const Place& at, int junctions_left) {
       double least = ahead(at, to);
-      if (joints_left == 0) return least;
-      for (const Joint& joint : joints) {
-        const double there = ahead(at, joint.from);
+      if (junctions_left == 0) return least;
+      for (const Junction& junction : junctions) {
+        const double there = ahead(at, junction.from);
         if (there == kNever) continue;
-        least = std::min(least, there + Network::kChangeCosts_m + best(joint.to, joints_left - 1));
+        least = std::min(least,
+                         there + Network::kChangeCosts_m + best(junction.to, junctions_left - 1));
       }
       return least;
     };
     const double least = best(from, 5);
-    const auto way = Network::Build(routes, joints, conditions)->ShortestWay(from, to);
+    const auto way = Network::Build(routes, junctions, conditions)->ShortestWay(from, to);
     ASSERT_EQ(way.has_value(), least < kNever) << trial;
     if (!way) continue;
     ++found;
-    EXPECT_NEAR(LengthOf(way->stretches), way->length_m, 1e-9);
+    EXPECT_NEAR(LengthOf(way->sections), way->length_m, 1e-9);
     double cost = 0.0;
-    for (const Stretch& stretch : way->stretches) {
-      cost += stretch.length_m() * (stretch.backwards() ? Network::kBackwardsCosts : 1.0);
+    for (const Section& section : way->sections) {
+      cost += section.length_m() * (section.backwards() ? Network::kBackwardsCosts : 1.0);
     }
     EXPECT_LE(cost, least + 1e-9) << trial;
     EXPECT_GE(cost, least - 5 * Network::kChangeCosts_m - 1e-9) << trial;

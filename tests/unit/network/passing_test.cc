@@ -13,9 +13,9 @@ TEST(PassingTest, AQuestionIsReadAsItIsWritten) {
 }
 
 TEST(PassingTest, AnAnswerIsReadAsItIsWrittenAndWhatALaterOneHasIsPassedOver) {
-  const Joint joint{{"hall", 12.0}, {"office", 0.0}, true};
-  const Passing joined{{"office", 0.3}, joint, std::nullopt};
-  const Passing proposed{{"yard@2", 7.25}, joint, 0.93};
+  const Junction junction{{"hall", 12.0}, {"office", 0.0}, true};
+  const Passing joined{{"office", 0.3}, junction, std::nullopt};
+  const Passing proposed{{"yard@2", 7.25}, junction, 0.93};
   const Passings read = ParsePassings(
       {AtPlace({"hall", 12.3}), ToText(joined), "weather fine", ToText(proposed), "passes",
        "passes office", "passes office@1", "passes office@1 close hall", "passes @1 join a@1 b@2"});

@@ -21,7 +21,7 @@ std::string Listed(const std::string& words) {
   const auto edit = ParseEdit(words);
   if (!edit) return edit.error().message;
   if (edit->kind == Edit::Kind::kName) return ToText(edit->named);
-  return edit->kind == Edit::Kind::kJoin ? ToText(edit->joint) : ToText(edit->condition);
+  return edit->kind == Edit::Kind::kJoin ? ToText(edit->junction) : ToText(edit->condition);
 }
 
 TEST(NetworkWords, AnEditIsListedAsItWasGiven) {
@@ -38,7 +38,7 @@ TEST(NetworkWords, AnEditIsListedAsItWasGiven) {
   const auto part = ParseEdit("part hall@12 office@0");
   ASSERT_TRUE(part);
   EXPECT_EQ(part->kind, Edit::Kind::kPart);
-  EXPECT_EQ(part->joint.from, (Place{"hall", 12.0}));
+  EXPECT_EQ(part->junction.from, (Place{"hall", 12.0}));
   const auto narrow = ParseEdit("narrow hall 3..7 back 10..14");
   ASSERT_TRUE(narrow);
   EXPECT_EQ(narrow->kind, Edit::Kind::kNarrow);
@@ -97,11 +97,11 @@ TEST(NetworkWords, ANamedPlaceMayBeAHome) {
   EXPECT_FALSE(other.edit->named.home);
 }
 
-TEST(NetworkWords, AProposedJointIsConfirmedOrRefusedByItsPlacesOrAsOneOfAll) {
+TEST(NetworkWords, AProposedJunctionIsConfirmedOrRefusedByItsPlacesOrAsOneOfAll) {
   const auto one = ParseEdit("confirm hall@12 office@0.4");
   ASSERT_TRUE(one);
   EXPECT_EQ(one->kind, Edit::Kind::kConfirm);
-  EXPECT_EQ(one->joint.to, (Place{"office", 0.4}));
+  EXPECT_EQ(one->junction.to, (Place{"office", 0.4}));
   EXPECT_FALSE(one->all);
   const auto sure = ParseEdit("confirm all above 0.9");
   ASSERT_TRUE(sure && sure->all);
@@ -120,7 +120,7 @@ TEST(NetworkWords, AProposedJointIsConfirmedOrRefusedByItsPlacesOrAsOneOfAll) {
   EXPECT_THAT(Why("refuse hall@12 office@0 both"), HasSubstr("nothing more"));
 }
 
-TEST(NetworkWords, AProposalIsListedAsTheJointThatItWouldMakeAndNoSurerThanItIs) {
+TEST(NetworkWords, AProposalIsListedAsTheJunctionThatItWouldMakeAndNoSurerThanItIs) {
   const Proposal proposal{{{"hall", 12.3}, {"office", 0.4}, true, Lie{.turn_rad = 0.05}}, 0.9999};
   const std::string line = ToText(proposal);
   EXPECT_EQ(line, "proposed join hall@12.3 office@0.4 both heading 2.9 confidence 0.99");
@@ -137,7 +137,7 @@ TEST(NetworkWords, AProposalIsListedAsTheJointThatItWouldMakeAndNoSurerThanItIs)
 }
 
 TEST(NetworkWords, WhereRobotsWereLostIsListedAndNoEdit) {
-  const LostStretch lost{"hall", 5.0, 10.0, 7.0, 1.8, 1.8};
+  const LostSection lost{"hall", 5.0, 10.0, 7.0, 1.8, 1.8};
   const std::string line = ToText(lost);
   EXPECT_EQ(line, "lost hall 5..10 1.8 of 7 cost 1.8");
   EXPECT_EQ(Describe(lost), "lost hall 5..10 1.8 of 7 times lately, a metre counts as 1.8");

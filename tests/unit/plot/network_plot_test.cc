@@ -20,16 +20,16 @@ int CountNear(const NetworkPicture& network, image::Color color) {
 NetworkPicture Three() {
   NetworkPicture network;
   network.routes = {{"hall", 20.0, {}}, {"office", 10.0, {}}, {"ring", 8.0, {}}};
-  network.joints = {{{0, 12.0}, {1, 2.0}, false, true},
-                    {{1, 10.0}, {0, 19.0}, false, true},
-                    {{2, 8.0}, {2, 0.0}, false, true}};
+  network.junctions = {{{0, 12.0}, {1, 2.0}, false, true},
+                       {{1, 10.0}, {0, 19.0}, false, true},
+                       {{2, 8.0}, {2, 0.0}, false, true}};
   return network;
 }
 
-TEST(DrawNetwork, RowsAreMovedSoThatTheFirstJointStandsUpright) {
+TEST(DrawNetwork, RowsAreMovedSoThatTheFirstJunctionStandsUpright) {
   NetworkPicture network = Three();
   EXPECT_THAT(RowStarts(network), ElementsAre(DoubleEq(0.0), DoubleEq(10.0), DoubleEq(0.0)));
-  network.joints = {{{1, 9.0}, {0, 1.0}, true, true}};
+  network.junctions = {{{1, 9.0}, {0, 1.0}, true, true}};
   EXPECT_THAT(RowStarts(network), ElementsAre(DoubleEq(8.0), DoubleEq(0.0), DoubleEq(8.0)));
 }
 
@@ -54,7 +54,7 @@ TEST(DrawNetwork, EachPartIsThereInItsColour) {
   EXPECT_GT(CountNear(network, kInk), ink + 50);
 }
 
-TEST(DrawNetwork, ARouteOfNoLengthOrWithoutJointsIsDrawnAllTheSame) {
+TEST(DrawNetwork, ARouteOfNoLengthOrWithoutJunctionsIsDrawnAllTheSame) {
   NetworkPicture network;
   network.routes = {{"point", 0.0, {}}};
   EXPECT_GT(CountNear(network, kBlue), 20);

@@ -103,6 +103,17 @@ TEST_F(RefusedTest, WhatIsNoNumber) {
   EXPECT_EQ(speed_, 0.5);
 }
 
+TEST_F(RefusedTest, WhatIsMistypedOrWasCalledSoOnceIsAnsweredByItsName) {
+  EXPECT_THAT(Told({"drivee"}), HasSubstr("not understood: drivee; did you mean 'drive'?"));
+  EXPECT_THAT(Told({"reverse"}), Not(HasSubstr("did you mean")));
+  EXPECT_THAT(Told({"glance", "robot1"}), Not(HasSubstr("did you mean")));
+  program_.app.add_subcommand("snapshot");
+  EXPECT_THAT(Told({"glance", "robot1"}),
+              HasSubstr("not understood: glance robot1; did you mean 'snapshot'?"));
+  EXPECT_THAT(Told({"drive", "drivee"}), Not(HasSubstr("did you mean"))) << "it has a command";
+  EXPECT_THAT(Told({"drive", "--sped=1"}), HasSubstr("; did you mean '--speed'?"));
+}
+
 TEST_F(RefusedTest, SectionsAndKeysThatAreNotKnownByName) {
   EXPECT_THAT(Told({"drive"}, "[drvie]\nspeed = 1\n"),
               AllOf(HasSubstr("section '[drvie]'"), HasSubstr("in [drive]: ")));

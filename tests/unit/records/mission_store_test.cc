@@ -50,7 +50,7 @@ class MissionStoreTest : public testing::Test {
                         .state = state,
                         .task = 2,
                         .way = 3,
-                        .waits_for = mission::WaitsFor::kLane,
+                        .waits_for = mission::WaitsFor::kPlace,
                         .detail = "why"};
     const auto news = store_->Change({&report, 1}, ++now_ms_);
     EXPECT_TRUE(news);
@@ -81,7 +81,7 @@ TEST_F(MissionStoreTest, KeepsAMissionAndWhatBecameOfItOverARestart) {
   EXPECT_EQ(record.last.state, State::kAccepted);
   EXPECT_EQ(record.last.task, 2U);
   EXPECT_EQ(record.last.way, 3U);
-  EXPECT_EQ(record.last.waits_for, mission::WaitsFor::kLane);
+  EXPECT_EQ(record.last.waits_for, mission::WaitsFor::kPlace);
   EXPECT_EQ(record.last.detail, "why");
   EXPECT_EQ(record.sent_unix_ms, 1001);
   EXPECT_EQ(record.changed_unix_ms, 1002);

@@ -13,7 +13,7 @@ namespace trailcast::store {
 namespace {
 
 using network::Condition;
-using network::Joint;
+using network::Junction;
 using network::Lie;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -28,35 +28,35 @@ class NetworkStoreTest : public testing::Test {
     ASSERT_TRUE(opened) << opened.error().message;
     store_ = std::move(*opened);
   }
-  void Put(const Joint& joint) { ASSERT_TRUE(store_->Put(joint, "desk", 1000)); }
+  void Put(const Junction& junction) { ASSERT_TRUE(store_->Put(junction, "desk", 1000)); }
 
   test::TempDir folder_;
   std::filesystem::path file_ = folder_ / "joints";
   std::unique_ptr<NetworkStore> store_;
 };
 
-TEST_F(NetworkStoreTest, JointsAreThereAfterARestartInTheirOrderOnceForTheSamePlaces) {
-  const Joint first{{"a/1", 12.25}, {"b/7", 0.0}, true, Lie{0.1, -0.25, 0.5}};
-  Joint second{{"b/7", 3.0}, {"a/1", 1.0}};
+TEST_F(NetworkStoreTest, JunctionsAreThereAfterARestartInTheirOrderOnceForTheSamePlaces) {
+  const Junction first{{"a/1", 12.25}, {"b/7", 0.0}, true, Lie{0.1, -0.25, 0.5}};
+  Junction second{{"b/7", 3.0}, {"a/1", 1.0}};
   Put(first);
   Put(second);
   Reopen();
-  EXPECT_THAT(store_->Joints().value(), ElementsAre(first, second));
+  EXPECT_THAT(store_->Junctions().value(), ElementsAre(first, second));
   second.both = true;
   Put(second);
-  EXPECT_THAT(store_->Joints().value(), ElementsAre(first, second));
+  EXPECT_THAT(store_->Junctions().value(), ElementsAre(first, second));
   ASSERT_TRUE(store_->Drop(first));
   ASSERT_TRUE(store_->Drop(first)) << "of what is not there, too";
   Reopen();
-  EXPECT_THAT(store_->Joints().value(), ElementsAre(second));
+  EXPECT_THAT(store_->Junctions().value(), ElementsAre(second));
 }
 
 TEST_F(NetworkStoreTest, WhatRoutesShareIsKeptWithTheProposalWhateverIsSaidOfIt) {
-  ProposedJoint found{.proposal = {{{"a/1", 12.25}, {"b/7", 0.0}, true}, 0.97}, .length_m = 7.5};
+  ProposedJunction found{.proposal = {{{"a/1", 12.25}, {"b/7", 0.0}, true}, 0.97}, .length_m = 7.5};
   ASSERT_TRUE(store_->Put({&found, 1}, "server", 1000));
   Reopen();
   EXPECT_THAT(store_->Proposals().value(), ElementsAre(found));
-  found.verdict = ProposedJoint::Verdict::kTaken;
+  found.verdict = ProposedJunction::Verdict::kTaken;
   ASSERT_TRUE(store_->Put({&found, 1}, "desk", 2000));
   Reopen();
   EXPECT_THAT(store_->Proposals().value(), ElementsAre(found));
@@ -67,31 +67,31 @@ TEST_F(NetworkStoreTest, WhatRoutesShareIsKeptWithTheProposalWhateverIsSaidOfIt)
 }
 
 TEST_F(NetworkStoreTest, ProposalsStayWhatTheyAreSaidToBeUntilTheirRevisionGoes) {
-  using Verdict = ProposedJoint::Verdict;
-  const Joint first{{"a/1", 12.25}, {"b/7", 0.0}, true, Lie{.turn_rad = 0.05}};
-  const Joint second{{"b/7", 3.0}, {"c/1", 1.0}};
+  using Verdict = ProposedJunction::Verdict;
+  const Junction first{{"a/1", 12.25}, {"b/7", 0.0}, true, Lie{.turn_rad = 0.05}};
+  const Junction second{{"b/7", 3.0}, {"c/1", 1.0}};
   ASSERT_TRUE(
-      store_->Put(std::vector<ProposedJoint>{{{first, 0.97}}, {{second, 0.8}}}, "server", 1000));
+      store_->Put(std::vector<ProposedJunction>{{{first, 0.97}}, {{second, 0.8}}}, "server", 1000));
   const std::vector<std::string> searched{"b/7", "b/7"};
   ASSERT_TRUE(store_->MarkSearched(searched));
   ASSERT_TRUE(store_->MarkSearched(searched));
   Reopen();
   EXPECT_THAT(store_->Proposals().value(),
-              ElementsAre(ProposedJoint{{first, 0.97}}, ProposedJoint{{second, 0.8}}));
+              ElementsAre(ProposedJunction{{first, 0.97}}, ProposedJunction{{second, 0.8}}));
   EXPECT_THAT(store_->Searched().value(), ElementsAre("b/7"));
-  EXPECT_THAT(store_->Joints().value(), IsEmpty());
-  const ProposedJoint taken{{first, 0.97}, Verdict::kTaken};
-  const ProposedJoint refused{{second, 0.8}, Verdict::kRefused};
-  ASSERT_TRUE(store_->Put(std::vector<ProposedJoint>{taken, refused}, "desk", 2000));
+  EXPECT_THAT(store_->Junctions().value(), IsEmpty());
+  const ProposedJunction taken{{first, 0.97}, Verdict::kTaken};
+  const ProposedJunction refused{{second, 0.8}, Verdict::kRefused};
+  ASSERT_TRUE(store_->Put(std::vector<ProposedJunction>{taken, refused}, "desk", 2000));
   Reopen();
   EXPECT_THAT(store_->Proposals().value(), ElementsAre(taken, refused));
-  EXPECT_THAT(store_->Joints().value(), ElementsAre(first));
+  EXPECT_THAT(store_->Junctions().value(), ElementsAre(first));
   ASSERT_TRUE(store_->DropProposals("c/1"));
   EXPECT_THAT(store_->Proposals().value(), ElementsAre(taken));
   ASSERT_TRUE(store_->DropProposals("b/7"));
   EXPECT_THAT(store_->Proposals().value(), IsEmpty());
   EXPECT_THAT(store_->Searched().value(), IsEmpty());
-  EXPECT_THAT(store_->Joints().value(), ElementsAre(first)) << "an operator's word stays";
+  EXPECT_THAT(store_->Junctions().value(), ElementsAre(first)) << "an operator's word stays";
 }
 
 TEST_F(NetworkStoreTest, ConditionsOfARouteReplaceThoseOfBefore) {
@@ -147,23 +147,23 @@ TEST_F(NetworkStoreTest, AnotherFileIsLeftAlone) {
   const auto missions = NetworkStore::Open(folder_ / "missions");
   ASSERT_FALSE(missions);
   EXPECT_EQ(missions.error().code, ErrorCode::kCorrupt);
-  EXPECT_THAT(missions.error().message, HasSubstr("holds no joints"));
+  EXPECT_THAT(missions.error().message, HasSubstr("holds no junctions"));
   std::ofstream(folder_ / "text") << "this is no database, but a file of somebody's";
   EXPECT_EQ(NetworkStore::Open(folder_ / "text").error().code, ErrorCode::kCorrupt);
 }
 
-TEST_F(NetworkStoreTest, HowStretchesWereFollowedIsThereAfterARestartAndTheOldestGoes) {
-  const FollowedStretch first{{RouteId("a"), TeachingId(1)}, 0, 3.5, 0.5, 2000};
-  const FollowedStretch other{{RouteId("a"), TeachingId(1)}, 1, 1.0, 1.0, 1000};
+TEST_F(NetworkStoreTest, HowSectionsWereFollowedIsThereAfterARestartAndTheOldestGoes) {
+  const FollowedSection first{{RouteId("a"), TeachingId(1)}, 0, 3.5, 0.5, 2000};
+  const FollowedSection other{{RouteId("a"), TeachingId(1)}, 1, 1.0, 1.0, 1000};
   ASSERT_TRUE(store_->Put(std::vector{first, other}));
   Reopen();
   EXPECT_THAT(store_->Followed().value(), ElementsAre(other, first));
-  FollowedStretch later = other;
+  FollowedSection later = other;
   later.passed = 2.0;
   later.at_unix_ms = 3000;
   ASSERT_TRUE(store_->Put(std::vector{later}));
   EXPECT_THAT(store_->Followed().value(), ElementsAre(first, later));
-  std::vector<FollowedStretch> many;
+  std::vector<FollowedSection> many;
   for (std::int64_t i = 1; i < NetworkStore::kMostFollowed; ++i) {
     many.push_back({{RouteId("b"), TeachingId(~0ULL >> 1U)}, i, 1.0, 0.0, 4000});
   }

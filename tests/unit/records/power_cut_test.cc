@@ -81,13 +81,13 @@ TEST(PowerCut, NothingThatAMissionStoreHasTakenIsLost) {
 }
 
 TEST(PowerCut, NothingThatANetworksStoreHasTakenIsLost) {
-  const auto joint = [](double from_m) {
-    const network::Joint made{{"hall", from_m}, {"yard", 0.0}, true};
+  const auto junction = [](double from_m) {
+    const network::Junction made{{"hall", from_m}, {"yard", 0.0}, true};
     return test::Told<NetworkStore>{
         [made](NetworkStore& store) { return store.Put(made, "desk", kNow); },
         [made](NetworkStore& store) {
-          const auto joints = store.Joints();
-          return joints && std::count(joints->begin(), joints->end(), made) == 1;
+          const auto junctions = store.Junctions();
+          return junctions && std::count(junctions->begin(), junctions->end(), made) == 1;
         }};
   };
   const test::Told<NetworkStore> closed{
@@ -109,7 +109,7 @@ TEST(PowerCut, NothingThatANetworksStoreHasTakenIsLost) {
       }};
   test::ExpectThatNothingTakenIsLost<NetworkStore>(
       [](const std::filesystem::path& file) { return NetworkStore::Open(file); },
-      {joint(1.0), closed, joint(2.0), named});
+      {junction(1.0), closed, junction(2.0), named});
 }
 
 TEST(PowerCut, NothingThatAHistoryHasTakenIsLost) {

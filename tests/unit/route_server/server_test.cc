@@ -36,14 +36,14 @@ class SlowStore : public test::MemoryStore {
 
 class ServerTest : public testing::Test {
  protected:
-  void Start(const QuotaOptions& quotas = {}, const std::filesystem::path& joints = {},
+  void Start(const QuotaOptions& quotas = {}, const std::filesystem::path& junctions = {},
              const std::filesystem::path& missions = {}) {
     auto server = Server::Open(AgentId("server"), std::make_unique<SlowStore>(),
                                bus_.Open(program::WithAgents(exchange::ServerTopics())));
     server_ = std::move(*server);
     if (quotas.any()) server_->Limit(quotas);
-    if (!joints.empty()) {
-      ASSERT_TRUE(server_->KeepNetwork(store::NetworkStore::Open(joints).value()));
+    if (!junctions.empty()) {
+      ASSERT_TRUE(server_->KeepNetwork(store::NetworkStore::Open(junctions).value()));
     }
     if (!missions.empty()) {
       ASSERT_TRUE(server_->KeepMissions(store::MissionStore::Open(missions).value()));

@@ -45,9 +45,10 @@ TEST(Role, OnlyOperatorsEditRoutesAndOnlyServersReceiptOrReply) {
 
 TEST(Role, AFollowerAnnouncesNoRoutesAndAnObserverOnlyAsks) {
   EXPECT_THAT(RightsOf(Role::kFollower).write, Not(Contains(Topic::kRoutes)));
-  EXPECT_THAT(RightsOf(Role::kObserver).write,
-              ElementsAre(Topic::kCatalogRequests, Topic::kMissionRequests, Topic::kGlanceRequests,
-                          Topic::kNetworkRequests, Topic::kReachRequests));
+  EXPECT_THAT(
+      RightsOf(Role::kObserver).write,
+      ElementsAre(Topic::kCatalogRequests, Topic::kMissionRequests, Topic::kSnapshotRequests,
+                  Topic::kNetworkRequests, Topic::kReachRequests));
 }
 
 TEST(Role, AllowsWhatItsProgramsOpenAndNamesWhatIsBeyond) {

@@ -22,8 +22,8 @@ route::RouteInfo Revision(const std::string& name, char id, unsigned number) {
 }
 
 // Twelve metres, of which less stayed from the fourth to the seventh, aside of the first's path.
-joints::Comparison Found() {
-  joints::Comparison found{.length = 12.0, .parts = {}};
+junctions::Comparison Found() {
+  junctions::Comparison found{.length = 12.0, .parts = {}};
   for (int i = 0; i < 12; ++i) {
     const bool changed = i >= 4 && i < 7;
     found.parts.push_back({1.0 * i, i + 1.0, i + 0.5, i + 1.5, 40, changed ? 5 : 30,
@@ -32,7 +32,7 @@ joints::Comparison Found() {
   return found;
 }
 
-TEST(DiffReport, TellsTheStretchesThatDifferAndSumsUp) {
+TEST(DiffReport, TellsTheSectionsThatDifferAndSumsUp) {
   const RouteDiff diff{Revision("hall", 'a', 1), Revision("hall", 'a', 3), Found()};
   EXPECT_EQ(
       DiffText(diff),
@@ -68,7 +68,7 @@ TEST(DiffReport, IsDrawnWithAStripForThePathWhereThatIsKnown) {
   RouteDiff diff{Revision("hall", 'a', 1), Revision("hall", 'a', 3), Found()};
   const auto moved = DrawDiff(diff);
   ASSERT_TRUE(moved) << moved.error().message;
-  for (joints::Part& part : diff.found.parts) part.aside_m.reset();
+  for (junctions::Part& part : diff.found.parts) part.aside_m.reset();
   const auto flat = DrawDiff(diff);
   ASSERT_TRUE(flat) << flat.error().message;
   EXPECT_GT(moved->height(), flat->height() + 100);

@@ -31,14 +31,14 @@ TEST(NetworkPictureOf, HasWhatTheServerLists) {
   EXPECT_EQ(picture->routes[1].marked[0].to_m, 10.0) << "up to its end";
   EXPECT_EQ(picture->routes[1].marked[1].part, NetworkPicture::Part::kLost);
   EXPECT_EQ(picture->routes[1].marked[1].from_m, 5.0);
-  ASSERT_THAT(picture->joints, SizeIs(3));
-  EXPECT_TRUE(picture->joints[0].both && picture->joints[0].used);
-  EXPECT_EQ(picture->joints[0].from.along_m, 12.0);
-  EXPECT_EQ(picture->joints[0].to.route, 1U);
-  EXPECT_FALSE(picture->joints[1].used);
-  EXPECT_EQ(picture->joints[1].from.route, 0U) << "another revision's, on the row of this one";
-  EXPECT_FALSE(picture->joints[2].used);
-  EXPECT_EQ(picture->joints[2].to.along_m, 4.0);
+  ASSERT_THAT(picture->junctions, SizeIs(3));
+  EXPECT_TRUE(picture->junctions[0].both && picture->junctions[0].used);
+  EXPECT_EQ(picture->junctions[0].from.along_m, 12.0);
+  EXPECT_EQ(picture->junctions[0].to.route, 1U);
+  EXPECT_FALSE(picture->junctions[1].used);
+  EXPECT_EQ(picture->junctions[1].from.route, 0U) << "another revision's, on the row of this one";
+  EXPECT_FALSE(picture->junctions[2].used);
+  EXPECT_EQ(picture->junctions[2].to.along_m, 4.0);
   ASSERT_THAT(picture->names, SizeIs(1));
   EXPECT_EQ(picture->names[0].name, "loading-bay");
 }
@@ -51,7 +51,7 @@ TEST(NetworkPictureOf, NothingAndTooMuchAreRefused) {
   }
   EXPECT_THAT(PictureOf(lines).error().message, HasSubstr("--json"));
   lines.pop_back();
-  EXPECT_THAT(PictureOf(lines).value().joints, IsEmpty());
+  EXPECT_THAT(PictureOf(lines).value().junctions, IsEmpty());
 }
 
 }  // namespace

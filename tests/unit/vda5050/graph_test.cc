@@ -37,7 +37,7 @@ TEST(GraphTest, WaysLeadOverJunctionsAndRoundWhatIsClosed) {
   const Graph graph = Site();
   const auto way = graph.WayBetween({"hall", 1.0}, {"office", 5.0});
   ASSERT_TRUE(way);
-  ASSERT_EQ(way->stretches.size(), 2U);
+  ASSERT_EQ(way->sections.size(), 2U);
   EXPECT_DOUBLE_EQ(way->length_m, 8.0);
   EXPECT_FALSE(graph.WayBetween({"hall", 5.0}, {"hall", 1.0})) << "the wrong way";
   EXPECT_THAT(graph.WayBetween({"attic", 0.0}, {"attic", 3.0}).error().message,

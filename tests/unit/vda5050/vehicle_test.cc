@@ -74,13 +74,15 @@ class VehicleTest : public testing::TestWithParam<Version> {
     Tick();
   }
   // The robot says that of the mission that it was sent last.
-  void Report(State state, const std::string& detail = "", std::uint32_t task = 0) {
+  void Report(State state, const std::string& detail = "", std::uint32_t task = 0,
+              mission::WaitsFor waits_for = mission::WaitsFor::kNothing) {
     ASSERT_TRUE(mission_);
     Hear(mission::Report{.agent = kRobot,
                          .mission = mission_->id,
                          .change = ++change_,
                          .state = state,
                          .task = task,
+                         .waits_for = waits_for,
                          .detail = detail});
   }
   void Stand(const std::string& route, double along_m, double speed_mps = 0.0) {
@@ -319,7 +321,7 @@ TEST_P(VehicleTest, ARobotThatCannotTakeOrdersSaysWhyUntilItCan) {
 TEST_P(VehicleTest, AMissionThatDoesNotArriveIsAnErrorAndTheOrderStays) {
   Order(master_.Order("o1", 0, {"hall:0", "hall:3", "hall:6"}, 2));
   Report(State::kUnderWay);
-  Report(State::kFailed, "LOST: nothing of segment 3 is seen");
+  Report(State::kFailed, "nothing of segment 3 is seen", 0, mission::WaitsFor::kPlace);
   EXPECT_THAT(Errors(), ElementsAre("LOCALIZATION_ERROR", "NODE_UNREACHABLE"));
   EXPECT_THAT(Description("LOCALIZATION_ERROR"), HasSubstr("nothing of segment 3 is seen"));
   EXPECT_THAT(NodesLeft(), ElementsAre("hall:3", "hall:6"));
@@ -338,6 +340,19 @@ TEST_P(VehicleTest, AMissionThatDoesNotArriveIsAnErrorAndTheOrderStays) {
   EXPECT_THAT(Errors(), IsEmpty());
   Report(State::kCancelled, "cancelled by operator");
   EXPECT_THAT(Description("NODE_UNREACHABLE"), HasSubstr("cancelled: cancelled by operator"));
+}
+
+TEST_P(VehicleTest, WhetherARobotIsLostIsNotDecidedByItsWords) {
+  Order(master_.Order("o1", 0, {"hall:0", "hall:3"}, 2));
+  Report(State::kFailed, "LOST: xyzzy");
+  EXPECT_THAT(Errors(), ElementsAre("NODE_UNREACHABLE"));
+  Act("cancelOrder", "c1");
+  for (const char* words : {"xyzzy", ""}) {
+    Order(master_.Order(fmt::format("o-{}", words), 0, {"hall:0", "hall:3"}, 2));
+    Report(State::kFailed, words, 0, mission::WaitsFor::kPlace);
+    EXPECT_THAT(Errors(), ElementsAre("LOCALIZATION_ERROR", "NODE_UNREACHABLE")) << words;
+    Act("cancelOrder", fmt::format("c-{}", words));
+  }
 }
 
 TEST_P(VehicleTest, ARobotThatDoesNotAnswerIsToldOf) {

@@ -64,7 +64,7 @@ TEST(WeakPlaces, OdometryBridgesViewsWithLittleInCommon) {
   EXPECT_TRUE(WeakPlacesOf({SegmentOf(view, next, true)}).empty());
 }
 
-TEST(WeakPlaces, ABlandStretchReachesHalfwayToWhatCanBeRecognised) {
+TEST(WeakPlaces, ABlandSectionReachesHalfwayToWhatCanBeRecognised) {
   const route::View view = ViewOf(1, 40);
   const route::View bland(view.begin(), view.begin() + 9);
   const auto places =

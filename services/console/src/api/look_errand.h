@@ -9,7 +9,7 @@
 namespace trailcast::console {
 
 // This gets one picture of what a robot's camera sees, or null if the robot did not answer.
-class LookErrand final : public ErrandFor<std::shared_ptr<const exchange::Glance>> {
+class LookErrand final : public ErrandFor<std::shared_ptr<const exchange::Snapshot>> {
  public:
   // By the exchange's rules, a repeated request waits for a second.
   static constexpr std::chrono::milliseconds kAskAgain{1000};
@@ -21,22 +21,22 @@ class LookErrand final : public ErrandFor<std::shared_ptr<const exchange::Glance
   [[nodiscard]] std::vector<exchange::Message> Words() const override { return {request_}; }
   [[nodiscard]] std::chrono::milliseconds SayAgain() const override { return kAskAgain; }
   void Hear(const exchange::Message& message) override {
-    const auto* glance = std::get_if<exchange::Glance>(&message);
-    if (glance == nullptr || glance->agent != request_.agent) return;
-    if (glance->client != request_.client || glance->request != request_.request) return;
-    seen_ = std::make_shared<const exchange::Glance>(*glance);
+    const auto* snapshot = std::get_if<exchange::Snapshot>(&message);
+    if (snapshot == nullptr || snapshot->agent != request_.agent) return;
+    if (snapshot->client != request_.client || snapshot->request != request_.request) return;
+    seen_ = std::make_shared<const exchange::Snapshot>(*snapshot);
   }
   [[nodiscard]] bool IsOver(std::chrono::milliseconds since) const override {
     return seen_ != nullptr || since >= kTimeout;
   }
 
  private:
-  [[nodiscard]] Result<std::shared_ptr<const exchange::Glance>> Outcome() const override {
+  [[nodiscard]] Result<std::shared_ptr<const exchange::Snapshot>> Outcome() const override {
     return seen_;
   }
 
-  exchange::GlanceRequest request_;
-  std::shared_ptr<const exchange::Glance> seen_;
+  exchange::SnapshotRequest request_;
+  std::shared_ptr<const exchange::Snapshot> seen_;
 };
 
 }  // namespace trailcast::console

@@ -17,7 +17,6 @@
 #include "services/console/src/api/answers.h"
 #include "services/console/src/api/driving_api.h"
 #include "services/console/src/api/files.h"
-#include "services/console/src/api/glances_api.h"
 #include "services/console/src/api/history_api.h"
 #include "services/console/src/api/map_api.h"
 #include "services/console/src/api/network_api.h"
@@ -25,6 +24,7 @@
 #include "services/console/src/api/routes/transfers_api.h"
 #include "services/console/src/api/routes/where_api.h"
 #include "services/console/src/api/runs/runs_api.h"
+#include "services/console/src/api/snapshots_api.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/mission_client.h"
@@ -153,7 +153,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   ServeDriving(server_, desk_);
   ServeWhere(server_, desk_);
   if (join) ServeTransfers(server_, desk_, transfers_.emplace(std::move(join)));
-  ServeGlances(server_, desk_);
+  ServeSnapshots(server_, desk_);
   if (runs != nullptr) ServeRuns(server_, desk_, *runs);
   access_.Serve(server_);
 }

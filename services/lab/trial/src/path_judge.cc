@@ -31,7 +31,7 @@ double PathJudge::Observe(const Eigen::Vector2d& position_m) {
   if (last_m_) {
     const double step_m = (position_m - *last_m_).norm();
     driven_m_ += step_m;
-    if (step_m > 0.0) stretches_.push_back({0.5 * (error_m + last_error_m_), step_m});
+    if (step_m > 0.0) sections_.push_back({0.5 * (error_m + last_error_m_), step_m});
   }
   if (driven_m_ >= kSettlingDistance_m) {
     max_settled_m_ = std::max(max_settled_m_.value_or(0.0), error_m);
@@ -53,13 +53,13 @@ void PathJudge::NotePush() {
 
 // Returns the distance that the robot kept for a share of the metres that it drove.
 double PathJudge::WithinFor(double share) const {
-  std::vector<Stretch> by_error = stretches_;
+  std::vector<Section> by_error = sections_;
   std::sort(by_error.begin(), by_error.end(),
-            [](const Stretch& a, const Stretch& b) { return a.error_m < b.error_m; });
+            [](const Section& a, const Section& b) { return a.error_m < b.error_m; });
   double left_m = share * driven_m_;
-  for (const Stretch& stretch : by_error) {
-    left_m -= stretch.driven_m;
-    if (left_m <= 0.0) return stretch.error_m;
+  for (const Section& section : by_error) {
+    left_m -= section.driven_m;
+    if (left_m <= 0.0) return section.error_m;
   }
   return by_error.empty() ? last_error_m_ : by_error.back().error_m;
 }
@@ -70,7 +70,7 @@ PathVerdict PathJudge::verdict() const {
   verdict.final_m = *last_m_;
   verdict.final_error_m = (*last_m_ - taught_.end_m()).norm();
   double integral = 0.0;  // metres of error times metres driven
-  for (const Stretch& stretch : stretches_) integral += stretch.error_m * stretch.driven_m;
+  for (const Section& section : sections_) integral += section.error_m * section.driven_m;
   verdict.mean_path_error_m = driven_m_ > 0.0 ? integral / driven_m_ : last_error_m_;
   verdict.p90_path_error_m = WithinFor(0.9);
   verdict.max_path_error_m = max_settled_m_.value_or(last_error_m_);

@@ -21,19 +21,19 @@ using testing::HasSubstr;
 class SnapshotsTest : public testing::Test {
  protected:
   void Ask(std::uint64_t request) {
-    ASSERT_TRUE(desk_->Publish(exchange::GlanceRequest{
+    ASSERT_TRUE(desk_->Publish(exchange::SnapshotRequest{
         .agent = AgentId("robot1"), .client = AgentId("desk"), .request = request}));
   }
   // The robot's threads do their part; what comes at the desk by then, and `show` is called when a
   // picture is wanted.
   template <typename Show>
-  std::optional<exchange::Glance> Answer(const Show& show) {
+  std::optional<exchange::Snapshot> Answer(const Show& show) {
     const auto until = steady_clock::now() + test::kLongEnough;
     while (steady_clock::now() < until) {
       (void)robot_->Take(milliseconds(5));
       if (snapshots_.wanted()) show();
       for (const exchange::Message& message : desk_->Take(milliseconds(0))) {
-        if (const auto* glance = std::get_if<exchange::Glance>(&message)) return *glance;
+        if (const auto* snapshot = std::get_if<exchange::Snapshot>(&message)) return *snapshot;
       }
     }
     return std::nullopt;
@@ -43,19 +43,19 @@ class SnapshotsTest : public testing::Test {
   Snapshots snapshots_{AgentId("robot1")};
   std::unique_ptr<exchange::RouteExchange> robot_ =
       snapshots_.Through(bus_.Open(program::WithAgents(exchange::OnDutyTopics())));
-  std::unique_ptr<exchange::RouteExchange> desk_ = bus_.Open(exchange::GlanceTopics());
+  std::unique_ptr<exchange::RouteExchange> desk_ = bus_.Open(exchange::SnapshotTopics());
 };
 
 TEST_F(SnapshotsTest, WhoAsksGetsAPictureOfFewBytesThatShowsWhatTheRobotSees) {
   Ask(7);
   SnapshotFrame frame{.picture = test::WalkFrame(3)};
   frame.turn_rad = 0.1;
-  const auto glance = Answer([&] { snapshots_.Show(frame); });
-  ASSERT_TRUE(glance);
-  EXPECT_EQ(glance->request, 7U);
-  EXPECT_LE(glance->picture.size(), Snapshots::kMostBytes);
-  EXPECT_THAT(glance->detail, HasSubstr("right"));
-  const auto picture = image::DecodeRgb(glance->picture, "glance");
+  const auto snapshot = Answer([&] { snapshots_.Show(frame); });
+  ASSERT_TRUE(snapshot);
+  EXPECT_EQ(snapshot->request, 7U);
+  EXPECT_LE(snapshot->picture.size(), Snapshots::kMostBytes);
+  EXPECT_THAT(snapshot->detail, HasSubstr("right"));
+  const auto picture = image::DecodeRgb(snapshot->picture, "snapshot");
   ASSERT_TRUE(picture) << picture.error().message;
   EXPECT_EQ(picture->width, frame.picture.width);
 }
@@ -65,18 +65,18 @@ TEST_F(SnapshotsTest, APictureThatIsHardToEncodeIsCoarserAndNotLarger) {
   SnapshotFrame noise{.picture = {640, 480, std::vector<std::uint8_t>(640 * 480)}};
   for (std::uint8_t& pixel : noise.picture.pixels) pixel = static_cast<std::uint8_t>(random());
   Ask(1);
-  const auto glance = Answer([&] { snapshots_.Show(noise); });
-  ASSERT_TRUE(glance);
-  EXPECT_FALSE(glance->picture.empty());
-  EXPECT_LE(glance->picture.size(), Snapshots::kMostBytes);
+  const auto snapshot = Answer([&] { snapshots_.Show(noise); });
+  ASSERT_TRUE(snapshot);
+  EXPECT_FALSE(snapshot->picture.empty());
+  EXPECT_LE(snapshot->picture.size(), Snapshots::kMostBytes);
 }
 
 TEST_F(SnapshotsTest, ACameraThatGivesNothingIsSaid) {
   Ask(1);
-  const auto glance = Answer([] {});
-  ASSERT_TRUE(glance);
-  EXPECT_TRUE(glance->picture.empty());
-  EXPECT_THAT(glance->detail, HasSubstr("no picture comes"));
+  const auto snapshot = Answer([] {});
+  ASSERT_TRUE(snapshot);
+  EXPECT_TRUE(snapshot->picture.empty());
+  EXPECT_THAT(snapshot->detail, HasSubstr("no picture comes"));
 }
 
 TEST_F(SnapshotsTest, WhileNobodyLooksNothingIsWantedMadeOrSent) {

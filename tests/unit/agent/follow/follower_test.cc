@@ -374,7 +374,7 @@ TEST_F(FollowerTest, StopsTheRobotOnASignal) {
   EXPECT_EQ(device_.told.back(), motion::VelocityCommand{});
 }
 
-TEST_F(FollowerTest, ArrivesWhereItsStretchEndsAndIsLostWhereItIsFoundFarBeyond) {
+TEST_F(FollowerTest, ArrivesWhereItsSectionEndsAndIsLostWhereItIsFoundFarBeyond) {
   TeachInto("robot");
   auto options = swarm_.FollowerNamed("robot");
   options.end_m = [] { return 1.0; };
@@ -413,7 +413,7 @@ class FoggyDevice : public WalkDevice {
   std::function<std::size_t(int)> rows_;
 };
 
-TEST_F(FollowerTest, StopsWhereItsStretchEndsThoughItSeesNothingOfIt) {
+TEST_F(FollowerTest, StopsWhereItsSectionEndsThoughItSeesNothingOfIt) {
   constexpr std::size_t kFew = 104;  // too few features to take the lens for covered without them
   constexpr std::size_t kNone = 120;
   FoggyDevice scout(kFrames, [](int) { return kFew; });
@@ -452,19 +452,19 @@ TEST_F(FollowerTest, TellsServersHowItFollowedAndWhereItWasLost) {
   const auto server = swarm_.Join({.write = {}, .read = {exchange::Topic::kFollowed}});
   const auto told = [&] {
     using namespace std::chrono_literals;
-    std::vector<exchange::FollowedStretches::Stretch> stretches;
+    std::vector<exchange::FollowedSections::Section> sections;
     for (const exchange::Message& message : server->Take(0ms)) {
-      const auto* followed = std::get_if<exchange::FollowedStretches>(&message);
+      const auto* followed = std::get_if<exchange::FollowedSections>(&message);
       if (followed != nullptr && followed->agent == AgentId("robot")) {
-        stretches.insert(stretches.end(), followed->stretches.begin(), followed->stretches.end());
+        sections.insert(sections.end(), followed->sections.begin(), followed->sections.end());
       }
     }
-    return stretches;
+    return sections;
   };
   auto options = swarm_.FollowerNamed("robot");
   ASSERT_TRUE(swarm_.Replay(device_, options, true)->success);
-  using Stretch = exchange::FollowedStretches::Stretch;
-  EXPECT_THAT(told(), testing::ElementsAre(Stretch{0, 1, 0}));
+  using Section = exchange::FollowedSections::Section;
+  EXPECT_THAT(told(), testing::ElementsAre(Section{0, 1, 0}));
   // By this method it drives on for a while, as if the lens was not covered.
   options.how.session.method = ReplayMethod::kPaper;
   WalkDevice loses(kFollowerFrames);
@@ -473,7 +473,7 @@ TEST_F(FollowerTest, TellsServersHowItFollowedAndWhereItWasLost) {
     return Result<void>{};
   };
   EXPECT_EQ(swarm_.Replay(loses, options, true)->state, "LOST");
-  EXPECT_THAT(told(), testing::ElementsAre(Stretch{0, 1, 1}));
+  EXPECT_THAT(told(), testing::ElementsAre(Section{0, 1, 1}));
 }
 
 TEST_F(FollowerTest, GivesUpWhereItGetsNoFurther) {

@@ -15,9 +15,9 @@ using test::WalkDevice;
 using testing::HasSubstr;
 
 constexpr int kTaughtWalk = 150;
-constexpr double kJoint_m = 0.6;
-// 0.1 m before the joint.
-constexpr int kBeforeJoint = 25;
+constexpr double kJunction_m = 0.6;
+// 0.1 m before the junction.
+constexpr int kBeforeJunction = 25;
 constexpr int kWaitsAtMost = 5000;  // frames
 
 // This is what a walk elsewhere looks like.
@@ -47,21 +47,22 @@ class NextPathTest : public testing::Test {
     options.link.route = route;
     return options;
   }
-  // As far as the joint, and on along that route; before the joint it stands until it knows that.
+  // As far as the junction, and on along that route; before the junction it stands until it knows
+  // that.
   FollowerOptions AlongHallThen(const std::string& route) {
     FollowerOptions options = Along("hall");
-    options.end_m = [] { return kJoint_m; };
+    options.end_m = [] { return kJunction_m; };
     options.next = [this, route](const auto& lens) -> FollowerOptions::Next {
       if (next_ != nullptr || !lens) return std::nullopt;
       HowToFollow how;
       how.session.lens = lens;
       auto next =
-          std::make_unique<NextPath>(device_, RouteWish{0, route, {}, kJoint_m}, KnownPath(how));
+          std::make_unique<NextPath>(device_, RouteWish{0, route, {}, kJunction_m}, KnownPath(how));
       next_ = next.get();
       return next;
     };
     device_.before_frame = [this](int frame) {
-      const bool waits = frame == kBeforeJoint && waits_for_next_ && !next_->ready();
+      const bool waits = frame == kBeforeJunction && waits_for_next_ && !next_->ready();
       if (waits && ++waited_ < kWaitsAtMost) --device_.next;
       return Result<void>{};
     };
@@ -69,7 +70,7 @@ class NextPathTest : public testing::Test {
   }
   Result<ReplayOutcome> GoOn(std::unique_ptr<NextPath> next) {
     FollowerOptions options = Along("office");
-    options.link.begin_m = kJoint_m;
+    options.link.begin_m = kJunction_m;
     return Replay(device_, options, swarm_.OpenStore("robot"), nullptr, std::move(next));
   }
 
@@ -80,7 +81,7 @@ class NextPathTest : public testing::Test {
   int waited_ = 0;
 };
 
-TEST_F(NextPathTest, ItIsDrivenAlongWithoutAStandAtTheJoint) {
+TEST_F(NextPathTest, ItIsDrivenAlongWithoutAStandAtTheJunction) {
   TeachInto("robot", "hall");
   TeachInto("robot", "office");
   auto outcome = swarm_.Replay(device_, AlongHallThen("office"), false);
@@ -125,7 +126,7 @@ TEST_F(NextPathTest, WhatItDoesNotHaveIsFetchedMeanwhile) {
   EXPECT_EQ(routes->front().state, route::RouteState::kComplete);
 }
 
-TEST_F(NextPathTest, WithoutItTheRobotStandsAtTheJoint) {
+TEST_F(NextPathTest, WithoutItTheRobotStandsAtTheJunction) {
   TeachInto("robot", "hall");
   waits_for_next_ = false;  // it will never be there
   const auto outcome = swarm_.Replay(device_, AlongHallThen("yard"), false);

@@ -15,26 +15,26 @@ using exchange::RouteFollowers;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using test::KeyNumber;
-using Board = RouteFollowersBoard;
+using Registry = FollowerRegistry;
 
 class RouteFollowersTest : public testing::Test {
  protected:
   void Hear(const std::string& agent, double along_m, int route = 1,
             AgentMode mode = AgentMode::kReplaying) {
-    board_.Handle(AgentStatus{.agent = AgentId(agent),
-                              .instance = 1,
-                              .role = exchange::AgentRole::kFollower,
-                              .mode = mode,
-                              .speed_mps = 0.4,
-                              .place = exchange::PlaceOnRoute{KeyNumber(route), along_m}},
-                  now_);
+    registry_.Handle(AgentStatus{.agent = AgentId(agent),
+                                 .instance = 1,
+                                 .role = exchange::AgentRole::kFollower,
+                                 .mode = mode,
+                                 .speed_mps = 0.4,
+                                 .place = exchange::PlaceOnRoute{KeyNumber(route), along_m}},
+                     now_);
   }
   // Told within the next second, of route 1: the latest.
   std::vector<RouteFollower> Told() {
     std::vector<RouteFollower> latest;
     for (const auto until = now_ + seconds(1); now_ < until;) {
       now_ += milliseconds(50);
-      for (RouteFollowers& told : board_.Due(now_)) {
+      for (RouteFollowers& told : registry_.Due(now_)) {
         if (told.key == KeyNumber(1)) latest = std::move(told.followers);
       }
     }
@@ -45,13 +45,13 @@ class RouteFollowersTest : public testing::Test {
     int times = 0;
     for (const auto until = now_ + time; now_ < until;) {
       now_ += milliseconds(50);
-      times += static_cast<int>(board_.Due(now_).size());
+      times += static_cast<int>(registry_.Due(now_).size());
     }
     return times;
   }
 
-  Board::Time now_ = Board::Time() + seconds(1000);
-  Board board_{AgentId("server")};
+  Registry::Time now_ = Registry::Time() + seconds(1000);
+  Registry registry_{AgentId("server")};
 };
 
 TEST_F(RouteFollowersTest, TellsThoseOnARouteOfEachOther) {
@@ -61,7 +61,7 @@ TEST_F(RouteFollowersTest, TellsThoseOnARouteOfEachOther) {
   Hear("a", 2.0);
   Hear("b", 3.0);
   now_ += milliseconds(50);
-  const auto told = board_.Due(now_);
+  const auto told = registry_.Due(now_);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told.front(),
             (RouteFollowers{.server = AgentId("server"),
@@ -94,9 +94,9 @@ TEST_F(RouteFollowersTest, WhoArrivedOrIsOnAnotherRouteHasMadeRoom) {
 TEST_F(RouteFollowersTest, WhoIsNotHeardStandsWhereItWasForAWhile) {
   Hear("a", 1.0);
   Hear("b", 2.0);
-  board_.Handle(AgentGone{AgentId("b"), 2}, now_);  // another process of its name
+  registry_.Handle(AgentGone{AgentId("b"), 2}, now_);  // another process of its name
   EXPECT_TRUE(Told().back().heard);
-  board_.Handle(AgentGone{AgentId("b"), 1}, now_);
+  registry_.Handle(AgentGone{AgentId("b"), 1}, now_);
   const auto told = Told();
   ASSERT_EQ(told.size(), 2U);
   EXPECT_FALSE(told.back().heard);
@@ -111,11 +111,11 @@ TEST_F(RouteFollowersTest, WhoIsNotHeardStandsWhereItWasForAWhile) {
 TEST_F(RouteFollowersTest, AFollowerThatWasRestartedStaysWhereItWasUntilItKnowsBetter) {
   Hear("a", 1.0);
   Hear("b", 2.0);
-  board_.Handle(AgentStatus{.agent = AgentId("b"),
-                            .instance = 2,
-                            .role = exchange::AgentRole::kFollower,
-                            .mode = AgentMode::kStarting},
-                now_);
+  registry_.Handle(AgentStatus{.agent = AgentId("b"),
+                               .instance = 2,
+                               .role = exchange::AgentRole::kFollower,
+                               .mode = AgentMode::kStarting},
+                   now_);
   EXPECT_EQ(Told().size(), 2U);
 }
 

@@ -9,7 +9,7 @@
 namespace trailcast::server {
 namespace {
 
-using exchange::FollowedStretches;
+using exchange::FollowedSections;
 using test::KeyNumber;
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -25,14 +25,14 @@ class FollowedLatelyTest : public testing::Test {
     if (key == KeyNumber(1)) return 20.0;
     return key == KeyNumber(2) ? std::optional(12.0) : std::nullopt;
   }
-  void Hear(std::vector<FollowedStretches::Stretch> stretches, unsigned route = 1) {
-    followed_.Hear({AgentId("robot1"), KeyNumber(route), std::move(stretches)}, now_);
+  void Hear(std::vector<FollowedSections::Section> sections, unsigned route = 1) {
+    followed_.Hear({AgentId("robot1"), KeyNumber(route), std::move(sections)}, now_);
   }
   [[nodiscard]] std::vector<Poor> Poorly() const { return followed_.Poorly(now_); }
   // "number: lost of passed" of all that is kept, as it counted when it was heard.
   std::vector<std::string> Kept() {
     std::vector<std::string> kept;
-    for (const store::FollowedStretch& each : followed_.Unsaved()) {
+    for (const store::FollowedSection& each : followed_.Unsaved()) {
       kept.push_back(fmt::format("{}: {:g} of {:g}", each.number, each.lost, each.passed));
     }
     return kept;
@@ -42,7 +42,7 @@ class FollowedLatelyTest : public testing::Test {
   FollowedLately followed_{LengthOf};
 };
 
-TEST_F(FollowedLatelyTest, AStretchCostsMoreByTheShareThatWasLost) {
+TEST_F(FollowedLatelyTest, ASectionCostsMoreByTheShareThatWasLost) {
   Hear({{0, 5, 0}, {1, 5, 0}, {2, 5, 0}});
   EXPECT_THAT(Poorly(), IsEmpty());
   Hear({{1, 2, 2}});
@@ -94,7 +94,7 @@ TEST_F(FollowedLatelyTest, GoesOnAfterARestartWithWhatWasSaved) {
 
 TEST_F(FollowedLatelyTest, NoMoreIsKeptThanThereIsRoomFor) {
   FollowedLately any([](const route::RouteKey&) { return 5.0; });
-  constexpr auto kMost = static_cast<unsigned>(FollowedLately::kMostStretches);
+  constexpr auto kMost = static_cast<unsigned>(FollowedLately::kMostSections);
   for (unsigned i = 0; i < kMost + 10; ++i) {
     any.Hear({AgentId("robot1"), KeyNumber(1, i + 1), {{0, 1, 0}}}, now_);
   }

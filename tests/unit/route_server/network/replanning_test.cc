@@ -41,11 +41,11 @@ class ReplanningTest : public testing::Test {
     replanning_.reset();
     network_.reset();
     missions_.reset();
-    auto joints = store::NetworkStore::Open(folder_ / "joints");
+    auto junctions = store::NetworkStore::Open(folder_ / "joints");
     auto missions = store::MissionStore::Open(folder_ / "missions");
-    ASSERT_TRUE(joints && missions);
-    network_ = NetworkBoard::Open(AgentId("server"), std::move(*joints), routes_).value();
-    missions_ = MissionBoard::Open(AgentId("server"), std::move(*missions)).value();
+    ASSERT_TRUE(junctions && missions);
+    network_ = NetworkRegistry::Open(AgentId("server"), std::move(*junctions), routes_).value();
+    missions_ = MissionRegistry::Open(AgentId("server"), std::move(*missions)).value();
     replanning_.emplace(*missions_, *network_);
   }
   // Returns what an operator who changes it is told of robots.
@@ -102,8 +102,8 @@ class ReplanningTest : public testing::Test {
   const std::string direct_ = "goto office@8 follow hall 0..12 follow office 0..8";
   test::TempDir folder_;
   test::MemoryStore routes_;
-  std::unique_ptr<NetworkBoard> network_;
-  std::unique_ptr<MissionBoard> missions_;
+  std::unique_ptr<NetworkRegistry> network_;
+  std::unique_ptr<MissionRegistry> missions_;
   std::optional<Replanning> replanning_;
   std::chrono::steady_clock::time_point now_{seconds(100)};
   std::uint64_t requests_ = 100;
@@ -236,7 +236,7 @@ TEST_F(ReplanningTest, WordsForPeopleAskForNothing) {
   EXPECT_THAT(IsAt(3, 4.0), HasSubstr("found itself elsewhere"));
 }
 
-// Beyond the joint, where both routes still run side by side.
+// Beyond the junction, where both routes still run side by side.
 TEST_F(ReplanningTest, OneThatHasFoundItselfOnOneOfTwoRoutesGoesOnByTheOther) {
   ASSERT_TRUE(network_->Propose({.a = test::KeyNumber(1, 1),
                                  .b = test::KeyNumber(2, 1),

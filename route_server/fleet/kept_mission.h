@@ -1,0 +1,36 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "services/mission/mission.h"
+
+namespace trailcast::server {
+
+// The parts of MissionRegistry share these.
+
+// A robot that has not answered is told again after the first pause, and later after ever longer
+// ones up to the second.
+inline constexpr std::chrono::milliseconds kSoon{1000};
+inline constexpr std::chrono::milliseconds kLate{30'000};
+// The id of the mission of a robot that is sent home begins with this.
+inline constexpr const char* kHomePrefix = "home-";
+
+// Returns a mission in words, for the log.
+[[nodiscard]] std::string Describe(const mission::Mission& mission);
+
+// Returns the orders of a mission whose path is only found once its robot is about to begin.
+[[nodiscard]] std::string OrdersWithoutWay(std::string_view goal);
+
+[[nodiscard]] bool SendsHome(const mission::Record& record);
+
+// Returns the states in which a mission has ended, a bit each.
+[[nodiscard]] std::uint32_t EndedStates();
+
+// Makes a report by the server itself.
+[[nodiscard]] mission::Report OwnReport(const mission::Mission& mission, mission::State state,
+                                        const std::string& why);
+
+}  // namespace trailcast::server
