@@ -16,6 +16,7 @@ struct Row {
 constexpr Row kRows[] = {
     {"GET", "/", std::nullopt},
     {"GET", "/page.js", std::nullopt},
+    {"GET", "/code/*", std::nullopt},
     {"GET", "/page.css", std::nullopt},
     {"GET", "/icon.svg", std::nullopt},
     {"GET", "/api/openapi.yaml", std::nullopt},

@@ -149,6 +149,49 @@ TEST_F(ConsoleHomeTest, AnEmptyPageLeadsToAFirstRobotRouteAndMission) {
   })) << browser.Text();
 }
 
+TEST_F(ConsoleHomeTest, TheFirstViewIsSmallAndWhatIsOpenedSeldomIsLoadedWhenItIsOpened) {
+  StartConsole();
+  const std::string port = std::to_string(port_);
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(1280, 800);
+  browser.Open(Page());
+  ASSERT_TRUE(browser.WaitForText("First steps")) << browser.Text();
+  const auto loaded_bytes = [&](const std::string& name) {
+    return browser.Run("return performance.getEntriesByType('resource').filter(each => /" + name +
+                       "/.test(each.name)).reduce((sum, each) => sum + each.encodedBodySize, 0)");
+  };
+  const json script = loaded_bytes("[.]js$");
+  std::printf("the first view has %d bytes of script and %d of style\n", script.get<int>(),
+              loaded_bytes("[.]css$").get<int>());
+  EXPECT_GT(script, json(0));
+  EXPECT_LE(script, json(90000)) << "gzipped, as the browser got it";
+  EXPECT_EQ(loaded_bytes("seldom"), json(0));
+
+  console_->Signal(SIGKILL);
+  (void)End(*console_);
+  ASSERT_TRUE(browser.WaitForText("Connection lost")) << browser.Text();
+  ASSERT_TRUE(browser.Click("//nav/a[. = 'Routes']")) << browser.Text();
+  ASSERT_TRUE(
+      browser.WaitForText("This part of the page could not be loaded. The console does not "
+                          "answer."))
+      << browser.Text();
+  browser.Screenshot(Shot("not-loaded"));
+  console_ = Start("trailcast-console", {"--http-port", port}, "console-again");
+  ASSERT_EQ(std::to_string(ConsolesPort(*console_)), port);
+  EXPECT_TRUE(browser.WaitForText("Activity log")) << "by itself, once the console is back\n"
+                                                   << browser.Text();
+  EXPECT_GT(loaded_bytes("seldom"), json(0));
+
+  browser.Block({"*/code/seldom-*"});
+  browser.Open("about:blank");
+  browser.Open(Page() + "#network");
+  ASSERT_TRUE(browser.WaitForText("or the console is of another version")) << browser.Text();
+  browser.Block({});
+  ASSERT_TRUE(browser.Click("//button[. = 'Try again']")) << browser.Text();
+  EXPECT_TRUE(browser.WaitForText("Routes and places with")) << browser.Text();
+}
+
 TEST_F(ConsoleHomeTest, SeveralRobotsAreSelectedAndToldAtOnceAndWhoDoesNotObeyIsNamed) {
   most_mps_ = "0.06";  // on its way for a minute
   ASSERT_NO_FATAL_FAILURE(Begin());

@@ -1,9 +1,9 @@
 import { useEffect, useState } from 'react';
 import { get, send, type Answer, type Place, type Robot, type Way } from '../api';
 import { textOf } from '../network/network-layout';
-import { isFree } from '../network/network-send';
-import { WayText } from '../network/network-way';
+import { WayText } from '../network/way-text';
 import { Slide } from '../robot/send';
+import { isFree } from '../robot/state';
 
 type Found = { way: Way } | { why: string } | null;
 

@@ -2,13 +2,13 @@ import { memo, useEffect, useState } from 'react';
 import { forget, send, tell, type Answer, type Order, type Robot } from '../api';
 import { Copy } from '../copy';
 import { age } from '../fleet';
+import { Later } from '../later';
 import { Glance } from './glance';
 import { useMay } from '../me';
 import { Send, Slide } from './send';
 import { Badge, mayMove } from './state';
 import { StopButton } from '../stop';
 import { Strip } from './strip';
-import { Teach, Teaching } from './teach';
 import { Charts } from './trace';
 import { Vitals } from './vitals';
 
@@ -100,9 +100,9 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
       </p>
       {obeys && open === 'send' && may.send && <Send who={robot.name} onGo={async (orders) => { sent(null); sent(await send(robot.name, orders)); }} />}
       {obeys && open === 'send' && may.send && <Slide label={`Slide to send ${robot.name} home`} onDone={() => order('home')} />}
-      {obeys && open === 'teach' && may.teach && <Teach robot={robot.name} onAnswer={sent} />}
+      {obeys && open === 'teach' && may.teach && <Later show={({ Teach }) => <Teach robot={robot.name} onAnswer={sent} />} />}
       {looking && seesIt && robot.teaches && <Glance robot={robot} brief />}
-      {obeys && robot.teaches && seen_ms === null && <Teaching robot={robot} onAnswer={say} />}
+      {obeys && robot.teaches && seen_ms === null && <Later show={({ Teaching }) => <Teaching robot={robot} onAnswer={say} />} />}
       {robot.route && !robot.teaches && robot.route_id && <Strip robot={robot} />}
       {robot.route && !robot.teaches && !robot.route_id && (
         <p className="note">Route {robot.route}: it has not found its place there yet.</p>
