@@ -7,3 +7,4 @@ export { Cameras } from './robot/cameras';
 export { Teach, Teaching } from './robot/teach';
 export { Routes } from './routes/routes';
 export { History } from './runs/history';
+export { Users } from './users';
