@@ -293,6 +293,9 @@ TEST_F(ConsoleHomeTest, AWallsScreenShowsWhatIsThereAndHasNoButtonButStopAll) {
   browser.Look(1920, 1080, true);
   browser.Open(Page() + "#wall");
   ASSERT_TRUE(browser.WaitForText("1 available")) << browser.Text();
+  ASSERT_TRUE(WaitUntil([&] {
+    return browser.Run("return document.querySelector('.wall-rows .state') !== null") == json(true);
+  })) << browser.Text();
   EXPECT_EQ(browser.Run("return [...document.querySelectorAll('button, select, "
                         "input, summary')]"
                         ".filter(each => !each.closest('[inert]')).map(each => "
