@@ -38,6 +38,8 @@ class Access {
   // Returns a function that tells whether the request's user is still accepted, for answers that
   // take long.
   [[nodiscard]] std::function<bool()> StillIn(const httplib::Request& request) const;
+  // Returns the users' guard, or null if nobody has to log in.
+  [[nodiscard]] const users::Guard* guard() const { return entry_.guard.get(); }
   // Returns whether strangers reach the console, each from an address of their own.
   [[nodiscard]] bool is_open() const { return entry_.guard != nullptr && !entry_.behind_proxy; }
   [[nodiscard]] bool encrypted() const { return entry_.tls.has_value() || entry_.behind_proxy; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "services/base/result.h"
@@ -42,6 +43,20 @@ struct LogInBody {
   std::string password;
 };
 [[nodiscard]] Result<LogInBody> ReadLogIn(const std::string& body);
+
+struct NewUserBody {
+  std::string user;
+  users::Role role = users::Role::kLook;
+  std::optional<std::string> password{};  // empty for a program, which gets a token
+};
+// Reads {"user", "role"} with either {"password"} or {"token": true}.
+[[nodiscard]] Result<NewUserBody> ReadNewUser(const std::string& body);
+struct UserChangeBody {
+  std::optional<users::Role> role{};
+  std::optional<std::string> password{};
+};
+// Reads {"role"}, {"password"} or both.
+[[nodiscard]] Result<UserChangeBody> ReadUserChange(const std::string& body);
 
 // Returns the answer about the user. `asks` tells whether users have to log in.
 [[nodiscard]] std::string MeBody(const users::Who& who, bool asks, const std::string& only_looks);

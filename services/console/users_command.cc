@@ -21,7 +21,7 @@ using users::Users;
 constexpr const char* kFooter = R"(Roles:
   look        sees everything, and tells robots nothing
   operate     sends, pauses, stops robots
-  administer  changes routes, too
+  administer  changes routes and users, too
 A password is asked for on the terminal, or read as one line from standard input. A token is for programs:
 shown once, and sent by them as 'Authorization: Bearer TOKEN'.
 Examples:

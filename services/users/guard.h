@@ -58,6 +58,12 @@ class Guard {
                                                         const std::string& address);
   void LogOut(const std::string& session);
   [[nodiscard]] std::optional<Who> WhoIn(const std::string& session);
+  // Returns the users that the file has now, or changes them there (user_file.h). A user
+  // who is removed, or has another password, is out once the file is looked at again.
+  [[nodiscard]] Result<Users> List() const { return LoadUsers(file_); }
+  [[nodiscard]] Result<void> Change(const std::function<Result<void>(Users&)>& change) const {
+    return ChangeUsers(file_, change);
+  }
   // Returns the user of a program's token.
   [[nodiscard]] std::optional<Who> WhoseToken(const std::string& token);
 
@@ -66,6 +72,7 @@ class Guard {
   [[nodiscard]] const Users& Known(Time now) { return users_.At(now, complain_); }
   [[nodiscard]] std::optional<Turned> MustWait(const std::string& name, const std::string& address);
 
+  const std::filesystem::path file_;
   Complain complain_;
   Parts parts_;
   std::mutex mutex_;  // guards everything below

@@ -169,6 +169,16 @@ export async function change<Reply>(method: 'PUT' | 'DELETE', path: string, body
   }
 }
 
+// What is there then, or why it is not.
+export async function create<Reply>(path: string, body: object): Promise<Reply | string> {
+  try {
+    const { json } = await post(path, body);
+    return json.error ?? (json as Reply);
+  } catch {
+    return 'The console does not answer.';
+  }
+}
+
 const unreachable: Answer = { ok: false, text: 'The console does not answer: the robot may not have been told.' };
 
 export async function tell(robot: string, order: Order): Promise<Answer> {

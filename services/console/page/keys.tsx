@@ -1,5 +1,6 @@
 import { useEffect, useRef, useState } from 'react';
 import type { Order, Robot } from './api';
+import { useMaySeeUsers } from './me';
 import { choose } from './theme';
 import { labels } from './robot/robot';
 
@@ -11,7 +12,7 @@ const isTaken = (target: EventTarget | null) =>
 
 const go = (hash: string) => () => { window.location.hash = hash; };
 
-function commandsFor(robots: Robot[], mayOperate: boolean, onStopAll: () => void, onTell: (robot: string, order: Order) => void): Command[] {
+function commandsFor(robots: Robot[], mayOperate: boolean, maySeeUsers: boolean, onStopAll: () => void, onTell: (robot: string, order: Order) => void): Command[] {
   const commands: Command[] = mayOperate ? [{ text: 'Stop all', run: onStopAll }] : [];
   for (const robot of robots) {
     if (mayOperate && robot.role === 'follower') {
@@ -24,6 +25,7 @@ function commandsFor(robots: Robot[], mayOperate: boolean, onStopAll: () => void
   for (const [hash, name] of [['fleet', 'Home'], ['cameras', 'Cameras'], ['network', 'Network'], ['routes', 'Routes'], ['history', 'History'], ['history/alerts', 'Alerts'], ['wall', 'Wall screen']]) {
     commands.push({ text: `Go to ${name}`, run: go(hash) });
   }
+  if (maySeeUsers) commands.push({ text: 'Go to Users', run: go('users') });
   for (const theme of ['system', 'light', 'dark'] as const) commands.push({ text: `Colours: ${theme}`, run: () => choose(theme) });
   return commands;
 }
@@ -82,6 +84,7 @@ export function Keys({ robots, chosen, mayOperate, onStop, onStopAll, onTell }: 
   onTell: (robot: string, order: Order) => void;
 }) {
   const [open, setOpen] = useState(false);
+  const maySeeUsers = useMaySeeUsers();
   useEffect(() => {
     const pressed = (event: KeyboardEvent) => {
       const isK = event.key.toLowerCase() === 'k' && (event.ctrlKey || event.metaKey);
@@ -102,7 +105,7 @@ export function Keys({ robots, chosen, mayOperate, onStop, onStopAll, onTell }: 
       <button className="keys" aria-haspopup="dialog" title="Commands: Ctrl+K or /" onClick={() => setOpen(true)}>
         <span aria-hidden="true">⌘</span><span className="hidden">Commands</span>
       </button>
-      {open && <Palette commands={commandsFor(robots, mayOperate, onStopAll, onTell)} onEnd={() => setOpen(false)} />}
+      {open && <Palette commands={commandsFor(robots, mayOperate, maySeeUsers, onStopAll, onTell)} onEnd={() => setOpen(false)} />}
     </>
   );
 }

@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState, type FormEvent, type ReactNode } from 'react';
-import { askWhoIAm, setMe, useMe } from './me';
+import { askWhoIAm, setMe, useMaySeeUsers, useMe } from './me';
 
 function LogIn() {
   const [wrong, setWrong] = useState('');
@@ -70,6 +70,7 @@ export function Doors({ children }: { children: ReactNode }) {
 
 export function WhoIsIn() {
   const me = useMe();
+  const maySeeUsers = useMaySeeUsers();
   if (me === null || me === 'out' || !me.logs_in) return null;
   const logOut = async () => {
     try {
@@ -80,7 +81,7 @@ export function WhoIsIn() {
   };
   return (
     <span className="who">
-      <span title={`May ${me.role}`}>{me.user}</span>
+      {maySeeUsers ? <a href="#users" title="You may administer: users">{me.user}</a> : <span title={`May ${me.role}`}>{me.user}</span>}
       <button onClick={logOut}>Log out</button>
     </span>
   );

@@ -6,20 +6,17 @@ import { stopAll, stopOne, tell, type Order, type Robot, type StopAnswer } from 
 import { remember } from './doubts';
 import { age, useFleet } from './fleet';
 import { Home, useChosen } from './home/home';
-import { Wall, WallNow } from './home/wall';
+import { WallNow } from './home/wall-now';
 import { Keys } from './keys';
+import { Later } from './later';
 import { Doors, OnlyLooks, WhoIsIn } from './login';
 import { Lost } from './lost';
 import { useMay } from './me';
-import { NetworkPage } from './network/network';
 import { Pages, usePage } from './pages';
-import { Cameras } from './robot/cameras';
 import { RobotPage } from './robot/page';
 import { labels } from './robot/robot';
 import { mayMove } from './robot/state';
 import { trace } from './robot/trace';
-import { Routes } from './routes/routes';
-import { History } from './runs/history';
 import { StopButton } from './stop';
 import { ThemeChoice } from './theme';
 
@@ -96,7 +93,7 @@ function Page() {
   }, [fleet]);
   const onWall = page === 'wall';
   const told = unacknowledged(alerts);
-  const shown = page === 'robot' ? open : { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', history: 'History', wall: 'Wall' }[page];
+  const shown = page === 'robot' ? open : { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', history: 'History', wall: 'Wall', users: 'Users' }[page];
   useEffect(() => {
     document.title = `${lost ? '⚠ Connection lost' : `${told > 0 ? `(${told}) ` : ''}${shown}`} – Trailcast`;
   }, [told, lost, shown]);
@@ -154,12 +151,13 @@ function Page() {
       )}
       <main className={`${page}${lost ? ' stale' : ''}`}>
         {page === 'fleet' && <Home fleet={fleet} open={open} chosen={chosen} settled={settled} lost_ms={lost_ms} now_ms={now_ms} onStop={onStop} />}
-        {onWall && <Wall fleet={fleet} settled={settled} now_ms={now_ms} />}
+        {onWall && <Later show={({ Wall }) => <Wall fleet={fleet} settled={settled} now_ms={now_ms} />} />}
         {page === 'robot' && <RobotPage key={open} fleet={fleet} name={open} settled={settled} lost_ms={lost_ms} now_ms={now_ms} />}
-        {page === 'cameras' && <Cameras robots={robots} settled={settled} onStop={onStop} />}
-        {page === 'network' && <NetworkPage robots={robots} live={fleet?.routes ?? []} />}
-        {page === 'routes' && <Routes open={open} now_ms={now_ms - now_ms % kStep_ms} />}
-        {page === 'history' && <History open={open} live={fleet?.missions ?? []} now_ms={now_ms} />}
+        {page === 'cameras' && <Later show={({ Cameras }) => <Cameras robots={robots} settled={settled} onStop={onStop} />} />}
+        {page === 'network' && <Later show={({ NetworkPage }) => <NetworkPage robots={robots} live={fleet?.routes ?? []} />} />}
+        {page === 'routes' && <Later show={({ Routes }) => <Routes open={open} now_ms={now_ms - now_ms % kStep_ms} />} />}
+        {page === 'history' && <Later show={({ History }) => <History open={open} live={fleet?.missions ?? []} now_ms={now_ms} />} />}
+        {page === 'users' && <Later show={({ Users }) => <Users />} />}
       </main>
       {!onWall && <footer>
         <p id="stop-help">

@@ -48,3 +48,9 @@ export function useMay(role: Me['role']): boolean {
   const roles = ['look', 'operate', 'administer'];
   return me !== null && me !== 'out' && roles.indexOf(me.role) >= roles.indexOf(role);
 }
+
+// Where nobody logs in there are no users.
+export function useMaySeeUsers(): boolean {
+  const me = useMe();
+  return me !== null && me !== 'out' && me.logs_in && me.role === 'administer';
+}

@@ -3,9 +3,9 @@ import { useEffect, useState } from 'react';
 // What stands behind the address's #: "#routes", and "#routes/.." for what is open on that page.
 const pages = { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', history: 'History' };
 
-// A robot's own page and a wall's screen have no place in the list.
-const others = ['wall'];
-export type PageName = keyof typeof pages | 'robot' | 'wall';
+// A robot's own page, a wall's screen and the users have no place in the list.
+const others = ['wall', 'users'];
+export type PageName = keyof typeof pages | 'robot' | 'wall' | 'users';
 
 function here(): { page: PageName; open: string } {
   const [name, open = ''] = window.location.hash.slice(1).split('/');

@@ -16,6 +16,7 @@ struct Row {
 constexpr Row kRows[] = {
     {"GET", "/", std::nullopt},
     {"GET", "/page.js", std::nullopt},
+    {"GET", "/code/*", std::nullopt},
     {"GET", "/page.css", std::nullopt},
     {"GET", "/icon.svg", std::nullopt},
     {"GET", "/api/openapi.yaml", std::nullopt},
@@ -69,6 +70,10 @@ constexpr Row kRows[] = {
     {"DELETE", "/api/site/placements/*", Role::kOperate},
     {"POST", "/api/routes/*/edits", Role::kAdminister},
     {"POST", "/api/transfers/uploads", Role::kAdminister},
+    {"GET", "/api/users", Role::kAdminister},
+    {"POST", "/api/users", Role::kAdminister},
+    {"PUT", "/api/users/*", Role::kAdminister},
+    {"DELETE", "/api/users/*", Role::kAdminister},
 };
 
 bool IsMeant(std::string_view path, std::string_view pattern) {

@@ -47,7 +47,8 @@ Result<std::unique_ptr<Guard>> Guard::Open(const std::filesystem::path& file, Co
 }
 
 Guard::Guard(const std::filesystem::path& file, Users users, Complain complain, Parts parts)
-    : complain_(std::move(complain)),
+    : file_(file),
+      complain_(std::move(complain)),
       parts_(std::move(parts)),
       users_(file, std::move(users)),
       of_address_(kAddressPace),

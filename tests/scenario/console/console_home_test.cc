@@ -149,6 +149,49 @@ TEST_F(ConsoleHomeTest, AnEmptyPageLeadsToAFirstRobotRouteAndMission) {
   })) << browser.Text();
 }
 
+TEST_F(ConsoleHomeTest, TheFirstViewIsSmallAndWhatIsOpenedSeldomIsLoadedWhenItIsOpened) {
+  StartConsole();
+  const std::string port = std::to_string(port_);
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(1280, 800);
+  browser.Open(Page());
+  ASSERT_TRUE(browser.WaitForText("First steps")) << browser.Text();
+  const auto loaded_bytes = [&](const std::string& name) {
+    return browser.Run("return performance.getEntriesByType('resource').filter(each => /" + name +
+                       "/.test(each.name)).reduce((sum, each) => sum + each.encodedBodySize, 0)");
+  };
+  const json script = loaded_bytes("[.]js$");
+  std::printf("the first view has %d bytes of script and %d of style\n", script.get<int>(),
+              loaded_bytes("[.]css$").get<int>());
+  EXPECT_GT(script, json(0));
+  EXPECT_LE(script, json(90000)) << "gzipped, as the browser got it";
+  EXPECT_EQ(loaded_bytes("seldom"), json(0));
+
+  console_->Signal(SIGKILL);
+  (void)End(*console_);
+  ASSERT_TRUE(browser.WaitForText("Connection lost")) << browser.Text();
+  ASSERT_TRUE(browser.Click("//nav/a[. = 'Routes']")) << browser.Text();
+  ASSERT_TRUE(
+      browser.WaitForText("This part of the page could not be loaded. The console does not "
+                          "answer."))
+      << browser.Text();
+  browser.Screenshot(Shot("not-loaded"));
+  console_ = Start("trailcast-console", {"--http-port", port}, "console-again");
+  ASSERT_EQ(std::to_string(ConsolesPort(*console_)), port);
+  EXPECT_TRUE(browser.WaitForText("Activity log")) << "by itself, once the console is back\n"
+                                                   << browser.Text();
+  EXPECT_GT(loaded_bytes("seldom"), json(0));
+
+  browser.Block({"*/code/seldom-*"});
+  browser.Open("about:blank");
+  browser.Open(Page() + "#network");
+  ASSERT_TRUE(browser.WaitForText("or the console is of another version")) << browser.Text();
+  browser.Block({});
+  ASSERT_TRUE(browser.Click("//button[. = 'Try again']")) << browser.Text();
+  EXPECT_TRUE(browser.WaitForText("Routes and places with")) << browser.Text();
+}
+
 TEST_F(ConsoleHomeTest, SeveralRobotsAreSelectedAndToldAtOnceAndWhoDoesNotObeyIsNamed) {
   most_mps_ = "0.06";  // on its way for a minute
   ASSERT_NO_FATAL_FAILURE(Begin());
@@ -196,6 +239,52 @@ TEST_F(ConsoleHomeTest, SeveralRobotsAreSelectedAndToldAtOnceAndWhoDoesNotObeyIs
               AllOf(HasSubstr("robot1: Does not obey"), HasSubstr("release it first")));
 }
 
+TEST_F(ConsoleHomeTest, AnOperatorSaysWhereARobotStandsAndItLooksWhetherItDoes) {
+  ASSERT_NO_FATAL_FAILURE(Begin());
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(1280, 1000);
+  browser.Open(Page() + "#robot/robot1");
+  ASSERT_TRUE(browser.Click("//button[. = 'Locate …']")) << browser.Text();
+  ASSERT_TRUE(browser.Click("//option[starts-with(., 'hall')]")) << browser.Text();
+  // The line of a route that is known begins and ends so many pixels from its picture's edges.
+  ASSERT_TRUE(WaitUntil([&] {
+    return browser.Run(
+               "const line = document.querySelector('.locate svg.clickable');"
+               "if (!line) return false;"
+               "const { left, width } = line.getBoundingClientRect();"
+               "line.dispatchEvent(new MouseEvent('click', "
+               "{ bubbles: true, clientX: left + 12 + (width - 24) / 2 }));"
+               "return true") == json(true);
+  })) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("It stands at 1.")) << "in the middle\n" << browser.Text();
+  browser.Screenshot(Shot("locate"));
+  ASSERT_TRUE(browser.Type("//section[contains(@class, 'locate')]//input[@inputmode='decimal']",
+                           "\xEE\x80\x83\xEE\x80\x83\xEE\x80\x83"
+                           "0.2"));
+  ASSERT_TRUE(browser.Click("//button[. = 'It stands at 0.2 m of hall']")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("it stands at 0.")) << browser.Text() << agent_->output();
+
+  // Where one clicks to send it, the same can be said.
+  browser.Open(Page() + "#fleet/robot1");
+  ASSERT_TRUE(browser.Click("//label[contains(., 'Routes')]/input")) << browser.Text();
+  ASSERT_TRUE(WaitUntil([&] {
+    return browser.Run(
+               "const line = document.querySelector('.lines svg.clickable');"
+               "if (!line) return false;"
+               "const { left } = line.getBoundingClientRect();"
+               "line.dispatchEvent(new MouseEvent('click', "
+               "{ bubbles: true, clientX: left + 16 }));"
+               "return true") == json(true);
+  })) << browser.Text();
+  ASSERT_TRUE(browser.Click("//button[. = 'robot1 stands here']")) << browser.Text();
+  ASSERT_TRUE(WaitUntil([&] {
+    const json found = Get("/api/missions?robot=robot1&state=arrived");
+    return found["missions"].size() == 2U;
+  })) << State().dump(2)
+      << agent_->output();
+}
+
 TEST_F(ConsoleHomeTest, AWallsScreenShowsWhatIsThereAndHasNoButtonButStopAll) {
   most_mps_ = "0.06";
   ASSERT_NO_FATAL_FAILURE(Begin());
@@ -204,6 +293,9 @@ TEST_F(ConsoleHomeTest, AWallsScreenShowsWhatIsThereAndHasNoButtonButStopAll) {
   browser.Look(1920, 1080, true);
   browser.Open(Page() + "#wall");
   ASSERT_TRUE(browser.WaitForText("1 available")) << browser.Text();
+  ASSERT_TRUE(WaitUntil([&] {
+    return browser.Run("return document.querySelector('.wall-rows .state') !== null") == json(true);
+  })) << browser.Text();
   EXPECT_EQ(browser.Run("return [...document.querySelectorAll('button, select, "
                         "input, summary')]"
                         ".filter(each => !each.closest('[inert]')).map(each => "

@@ -143,8 +143,9 @@ TEST_F(ConsolePeopleTest, AnOperatorPausesOneOfThreeRobotsAndWhoLooksSeesIt) {
     (void)guest->Run("window.location.hash = '" + page + "'");
     ASSERT_TRUE(WaitUntil([&] {
       return guest->Run("return document.querySelector('nav [aria-current]').hash") ==
-             json("#" + page);
-    }));
+                 json("#" + page) &&
+             guest->Text().find("Loading …") == std::string::npos;
+    })) << guest->Text();
     const json buttons =
         guest->Run("return [...document.querySelectorAll('button')].map((each) => each.innerText)");
     EXPECT_THAT(buttons.get<std::vector<std::string>>(),

@@ -52,11 +52,13 @@ TEST_F(WebTest, ThePageComesWithWhatKeepsOthersOut) {
   ASSERT_TRUE(page);
   EXPECT_EQ(page->status, 200);
   EXPECT_THAT(page->body, HasSubstr("/page.js"));
+  EXPECT_THAT(page->body, HasSubstr("rel=\"modulepreload\" href=\"/code/"));
   EXPECT_THAT(page->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'self'"));
   EXPECT_EQ(page->get_header_value("X-Content-Type-Options"), "nosniff");
   EXPECT_EQ(page->get_header_value("X-Frame-Options"), "DENY");
   EXPECT_EQ(page->get_header_value("Referrer-Policy"), "no-referrer");
-  for (const char* path : {"/page.js", "/page.css", "/icon.svg", "/api/openapi.yaml"}) {
+  for (const File& each : Files()) {
+    const char* path = each.path;
     const auto file = Client().Get(path);
     ASSERT_TRUE(file) << path;
     EXPECT_EQ(file->status, 200) << path;
@@ -70,7 +72,9 @@ TEST_F(WebTest, ThePageComesWithWhatKeepsOthersOut) {
 }
 
 TEST_F(WebTest, WhatIsLongComesPackedToWhoUnpacksIt) {
-  for (const char* path : {"/page.js", "/page.css", "/api/openapi.yaml"}) {
+  for (const File& each : Files()) {
+    if (each.packed.empty()) continue;
+    const char* path = each.path;
     httplib::Client client = Client();
     const auto plain = client.Get(path, {{"Accept-Encoding", "identity"}});
     ASSERT_TRUE(plain) << path;

@@ -1,6 +1,6 @@
 import { memo, useCallback, useContext, useRef, useState, type KeyboardEvent, type MouseEvent } from 'react';
 import type { Robot } from '../api';
-import { age } from '../fleet';
+import { age, compareNames } from '../fleet';
 import { Lost } from '../lost';
 import { useMay } from '../me';
 import { Glyph, capital, mayMove } from '../robot/state';
@@ -18,7 +18,7 @@ const kinds: Record<string, { label: string; has: (robot: Robot) => boolean }> =
   offline: { label: 'Offline', has: (robot) => !robot.heard },
 };
 
-export const byName = (one: Robot, other: Robot) => one.name.localeCompare(other.name, undefined, { numeric: true });
+export const byName = (one: Robot, other: Robot) => compareNames(one.name, other.name);
 export const rank = (robot: Robot) =>
   (robot.needs_person ? 0 : robot.state === 'driving' || robot.state === 'teaching' ? 1 : robot.heard ? 2 : 3);
 const orders: Record<string, { label: string; compare: (one: Robot, other: Robot) => number }> = {

@@ -1,6 +1,6 @@
 import { useContext, useEffect, useState } from 'react';
 import { send, stopOne, stopsSaid, tell, type Answer, type Order, type Robot } from '../api';
-import { when } from '../fleet';
+import { compareNames, when } from '../fleet';
 import { Lost } from '../lost';
 import { labels } from '../robot/robot';
 import { Send } from '../robot/send';
@@ -25,7 +25,7 @@ async function tellEach(robots: Robot[], say: (robot: string) => Promise<Answer>
     }
   };
   await Promise.all(Array.from({ length: kAtOnce }, work));
-  return failed.sort((one, other) => one.robot.localeCompare(other.robot, undefined, { numeric: true }));
+  return failed.sort((one, other) => compareNames(one.robot, other.robot));
 }
 
 const counted = (count: number) => `${count} robot${count === 1 ? '' : 's'}`;

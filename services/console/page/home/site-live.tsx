@@ -1,13 +1,12 @@
 import { useEffect, useMemo, useState } from 'react';
 import { get, type NetworkPart, type Place, type Robot, type Route, type Way } from '../api';
-import { ShapeView } from '../map/map';
+import { Later } from '../later';
 import type { Site } from '../map/plan';
-import { SiteView } from '../map/site';
 import { useMay } from '../me';
-import { useNetwork } from '../network/network';
 import { layOut, textOf, withRobots } from '../network/network-layout';
 import { NetworkMap } from '../network/network-map';
-import { isFree } from '../network/network-send';
+import { useNetwork } from '../network/use-network';
+import { isFree } from '../robot/state';
 import { Lines } from '../robot/strip';
 import { SendTo } from './send-to';
 
@@ -109,8 +108,8 @@ export function SiteLive({ robots, live, settled, chosen }: {
       {layer === null && <p className="note">Loading …</p>}
       {layer === 'lines' && <Lines robots={robots} chosen={chosen?.name ?? ''} settled={settled} pin={place} onPlace={onPlace} />}
       {layer === 'network' && <NetworkLive {...map} way={way} />}
-      {layer === 'shape' && <div className="map"><ShapeView {...map} settled={settled} /></div>}
-      {layer === 'site' && <div className="map"><SiteView {...map} /></div>}
+      {layer === 'shape' && <div className="map"><Later show={({ ShapeView }) => <ShapeView {...map} settled={settled} />} /></div>}
+      {layer === 'site' && <div className="map"><Later show={({ SiteView }) => <SiteView {...map} />} /></div>}
       {mayOperate && layer !== null && !place && (
         <p className="note">
           {chosen && isFree(chosen) ? `Click on a route to send ${chosen.name} there: its path is shown first.`

@@ -1,6 +1,6 @@
-import { memo, useMemo, useState, type CSSProperties, type KeyboardEvent } from 'react';
+import { memo, useMemo, useState, type KeyboardEvent } from 'react';
 import type { Fleet, Mission } from '../api';
-import { when } from '../fleet';
+import { compareNames, when } from '../fleet';
 import { keep, kept } from '../kept';
 import { addressOf, isOver } from '../missions';
 import { shapes } from '../robot/state';
@@ -76,7 +76,7 @@ function rowsOf(day: Day, heard: Heard, lost_ms: number | null, least_ms: number
     });
     return { robot: name, bars, lanes: free_ms.length };
   });
-  return rows.sort((one, other) => one.robot.localeCompare(other.robot, undefined, { numeric: true }));
+  return rows.sort((one, other) => compareNames(one.robot, other.robot));
 }
 
 type Span = { from_ms: number; to_ms: number; step_ms: number };
@@ -163,7 +163,7 @@ export function Timeline({ fleet, lost_ms, now_ms }: { fleet: Fleet | null; lost
   const ticks: number[] = [];
   const day_ms = midnight(now_ms);
   for (let at_ms = day_ms + Math.ceil((span.from_ms - day_ms) / span.step_ms) * span.step_ms; at_ms < span.to_ms; at_ms += span.step_ms) {
-    if (Math.abs(share(span, at_ms) - share(span, now_ms)) > kBesideNow) ticks.push(at_ms);
+    if (Math.abs(share(span, at_ms) - share(span, shown_ms)) > kBesideNow) ticks.push(at_ms);
   }
   return (
     <section className="pane timeline" aria-label="Missions of today">
@@ -189,14 +189,17 @@ export function Timeline({ fleet, lost_ms, now_ms }: { fleet: Fleet | null; lost
       {rows.length === 0
         ? <p className="note">{!day.told && !day.why ? 'Loading missions …' : range === 'hour' ? 'No missions in the last hour.' : 'No missions today.'}</p>
         : (
-          <div className="chart-of-day" onKeyDown={step} style={{ '--now': share(span, now_ms) } as CSSProperties}>
+          <div className="chart-of-day" onKeyDown={step}>
             <div className="hours" aria-hidden="true"><div>
               {ticks.map((at_ms) => <span key={at_ms} style={{ left: percent(share(span, at_ms)) }}>{clock(at_ms)}</span>)}
-              <span className="now" style={{ left: percent(share(span, now_ms)) }}>{clock(now_ms)}</span>
+              <span className="now" style={{ left: percent(share(span, shown_ms)) }}>{clock(now_ms)}</span>
             </div></div>
-            <ul>
-              {rows.map((row) => <DayRow key={row.robot} row={row} span={span} now_ms={row.bars.some(({ end_ms }) => end_ms === null) ? shown_ms : 0} />)}
-            </ul>
+            <div className="days">
+              <ul>
+                {rows.map((row) => <DayRow key={row.robot} row={row} span={span} now_ms={row.bars.some(({ end_ms }) => end_ms === null) ? shown_ms : 0} />)}
+              </ul>
+              <div className="now-line" aria-hidden="true"><div style={{ left: percent(share(span, shown_ms)) }} /></div>
+            </div>
           </div>
         )}
     </section>

@@ -1,7 +1,7 @@
 import { useContext, useEffect, useMemo, useRef, useState, type HTMLAttributes } from 'react';
-import type { Alert, Fleet, Robot, RobotState } from '../api';
+import type { Alert, Fleet, Robot } from '../api';
 import { byUrgency } from '../alerts/alerts';
-import { age, when } from '../fleet';
+import { age } from '../fleet';
 import { Lost } from '../lost';
 import { ShapeView } from '../map/map';
 import { SiteView } from '../map/site';
@@ -9,6 +9,7 @@ import { Lines } from '../robot/strip';
 import { Glyph, capital } from '../robot/state';
 import { byName, placeText, rank } from './rows';
 import { NetworkLive, useBest } from './site-live';
+import { counts } from './wall-now';
 
 const kMostAlerts = 3;
 const nothing = () => undefined;
@@ -112,12 +113,6 @@ function useRoom(): [React.RefObject<HTMLUListElement>, { rows: number; dense: n
   return [list, room];
 }
 
-function counts(robots: Robot[]): string {
-  const found = new Map<RobotState, number>();
-  for (const { state } of robots) found.set(state, (found.get(state) ?? 0) + 1);
-  return [...found].sort(([, one], [, other]) => other - one).map(([state, count]) => `${count} ${state}`).join(', ');
-}
-
 function Rows({ robots, settled, now_ms }: { robots: Robot[]; settled: boolean; now_ms: number }) {
   const lost = useContext(Lost);
   const [list, room] = useRoom();
@@ -138,17 +133,6 @@ function Rows({ robots, settled, now_ms }: { robots: Robot[]; settled: boolean; 
       ))}
       {rest.length > 0 && <li className="rest"><small>and {rest.length} more: {counts(rest)}</small></li>}
     </ul>
-  );
-}
-
-// It stands in the head of the page.
-export function WallNow({ robots, now_ms }: { robots: Robot[]; now_ms: number }) {
-  const lost = useContext(Lost);
-  return (
-    <p className="wall-now">
-      <time>{when(now_ms).slice(11, 16)}</time>
-      <span>{lost && robots.length > 0 && 'Last: '}{counts(robots)}</span>
-    </p>
   );
 }
 

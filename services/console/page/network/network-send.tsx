@@ -1,14 +1,11 @@
 import { useEffect, useState } from 'react';
 import { get, send, type Answer, type Robot, type Way } from '../api';
 import { standing } from './network-layout';
-import { WayText } from './network-way';
+import { WayText } from './way-text';
 import { Slide } from '../robot/send';
+import { isFree } from '../robot/state';
 
 export type Shown = { robot: string; to: string; way: Way };
-
-// Those that would take a mission now.
-export const isFree = (robot: Robot) =>
-  robot.role === 'follower' && robot.heard && !robot.mission && !['driving', 'teaching', 'shut down'].includes(robot.state);
 
 function whereOf(robot: Robot): string {
   const stands = standing(robot);

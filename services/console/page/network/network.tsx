@@ -1,5 +1,5 @@
 import { useCallback, useEffect, useMemo, useState } from 'react';
-import { editNetwork, get, type Answer, type NetworkPart, type Place, type Robot, type Route, type Way } from '../api';
+import { editNetwork, type Answer, type NetworkPart, type Place, type Robot, type Route, type Way } from '../api';
 import { useMay } from '../me';
 import { ChangeStretch, JoinPlaces, NamePlace, noDraft, type Draft } from './network-changes';
 import { layOut, metres, standsHow, textOf, withRobots } from './network-layout';
@@ -7,45 +7,11 @@ import { NetworkMap, type Overlay } from './network-map';
 import { SendThere, type Shown } from './network-send';
 import { NetworkTable } from './network-table';
 import { FindWay } from './network-way';
+import { useNetwork, type Query } from './use-network';
 
-const kEvery_ms = 3000;
 const kTyped_ms = 300;
 const kLimits = ['60', '200', '500'];
 const kMostStrays = 20;
-
-type Query = { search: string; around: string; limit: string };
-
-// Asked for anew as long as the page is seen. What was there last stays where the console does not answer.
-export function useNetwork(query: Query): { part: NetworkPart | null; why: string; again: () => void } {
-  const [part, setPart] = useState<NetworkPart | null>(null);
-  const [why, setWhy] = useState('');
-  const [asks, setAsks] = useState(0);
-  useEffect(() => {
-    let over = false;
-    let timer: number | undefined;
-    let last = '';
-    const ask = async () => {
-      if (!document.hidden) {
-        const reply = await get<NetworkPart>('/api/network', query);
-        if (over) return;
-        setWhy(typeof reply === 'string' ? reply : '');
-        const text = JSON.stringify(reply);
-        if (typeof reply !== 'string' && text !== last) {
-          last = text;
-          setPart(reply);
-        }
-      }
-      timer = window.setTimeout(ask, kEvery_ms);
-    };
-    void ask();
-    return () => {
-      over = true;
-      window.clearTimeout(timer);
-    };
-  }, [query.search, query.around, query.limit, asks]);
-  const again = useCallback(() => setAsks((times) => times + 1), []);
-  return { part, why, again };
-}
 
 function Search({ query, onQuery }: { query: Query; onQuery: (query: Query) => void }) {
   const [typed, setTyped] = useState(query.search);

@@ -41,6 +41,10 @@ const standing: RobotState[] = ['stopped', 'paused', 'available', 'arrived', 'fa
 export const mayMove = (robot: Robot) =>
   !standing.includes(robot.state) || robot.speed_mps !== 0 || robot.unanswered_stop_unix_ms !== null;
 
+// Those that would take a mission now.
+export const isFree = (robot: Robot) =>
+  robot.role === 'follower' && robot.heard && !robot.mission && !['driving', 'teaching', 'shut down'].includes(robot.state);
+
 // Robots that stand are seen first: they are listed first, and drawn last.
 export const stands = (robot: Robot) => robot.state !== 'driving' && robot.state !== 'teaching';
 

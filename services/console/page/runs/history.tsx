@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useState, type FormEvent } from 'react';
 import { get, sendAgain, type Answer, type Command, type CommandPage, type Mission, type MissionPage } from '../api';
-import { AlertHistory } from '../alerts/alerts';
+import { AlertHistory } from '../alerts/alert-history';
 import { Copy } from '../copy';
 import { age, when } from '../fleet';
 import { useMay } from '../me';

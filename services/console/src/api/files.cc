@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdint>
+#include <vector>
 
 // This embeds what the build puts into TRAILCAST_PAGE_DIR, byte for byte.
 #define TRAILCAST_EMBED(name, file)            \
@@ -23,13 +23,17 @@
   extern "C" const char trailcast_##name##_end[]
 
 TRAILCAST_EMBED(html, "index.html");
-TRAILCAST_EMBED(js, "page.js");
 TRAILCAST_EMBED(css, "page.css");
 TRAILCAST_EMBED(icon, "icon.svg");
 TRAILCAST_EMBED(openapi, "openapi.yaml");
-TRAILCAST_EMBED(js_gz, "page.js.gz");
 TRAILCAST_EMBED(css_gz, "page.css.gz");
 TRAILCAST_EMBED(openapi_gz, "openapi.yaml.gz");
+
+#define CODE(number, file)             \
+  TRAILCAST_EMBED(code##number, file); \
+  TRAILCAST_EMBED(code##number##_gz, file ".gz");
+#include TRAILCAST_PAGE_CODE
+#undef CODE
 
 namespace trailcast::console {
 namespace {
@@ -53,21 +57,30 @@ File MakeFile(const char* path, const char* type, std::string_view bytes,
   return {path, type, bytes, packed, TagOf(bytes)};
 }
 
-}  // namespace
-
-std::span<const File> Files() {
-  static const std::array kFiles{
+std::vector<File> MakeFiles() {
+  std::vector files{
       MakeFile("/", "text/html; charset=utf-8", Between(trailcast_html, trailcast_html_end)),
-      MakeFile("/page.js", "text/javascript; charset=utf-8",
-               Between(trailcast_js, trailcast_js_end),
-               Between(trailcast_js_gz, trailcast_js_gz_end)),
       MakeFile("/page.css", "text/css; charset=utf-8", Between(trailcast_css, trailcast_css_end),
                Between(trailcast_css_gz, trailcast_css_gz_end)),
       MakeFile("/icon.svg", "image/svg+xml", Between(trailcast_icon, trailcast_icon_end)),
       MakeFile("/api/openapi.yaml", "application/yaml",
                Between(trailcast_openapi, trailcast_openapi_end),
                Between(trailcast_openapi_gz, trailcast_openapi_gz_end))};
-  return kFiles;
+#define CODE(number, file)                                                    \
+  files.push_back(                                                            \
+      MakeFile("/" file, "text/javascript; charset=utf-8",                    \
+               Between(trailcast_code##number, trailcast_code##number##_end), \
+               Between(trailcast_code##number##_gz, trailcast_code##number##_gz_end)));
+#include TRAILCAST_PAGE_CODE
+#undef CODE
+  return files;
+}
+
+}  // namespace
+
+std::span<const File> Files() {
+  static const std::vector<File> files = MakeFiles();
+  return files;
 }
 
 }  // namespace trailcast::console

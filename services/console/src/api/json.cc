@@ -48,6 +48,24 @@ Result<std::string> LineIn(const Json& json, const char* field) {
   return value.get<std::string>();
 }
 
+Result<UserChangeBody> RoleAndPasswordIn(const Json& json) {
+  UserChangeBody change;
+  if (json.contains("role")) {
+    const Json& role = json["role"];
+    if (role.is_string()) change.role = users::FindRole(role.get_ref<const std::string&>());
+    if (!change.role) {
+      return Fail(ErrorCode::kInvalidArgument, "'role' is to be look, operate or administer");
+    }
+  }
+  if (json.contains("password")) {
+    if (!json["password"].is_string()) {
+      return Fail(ErrorCode::kInvalidArgument, "'password' is to be a text");
+    }
+    change.password = json["password"].get<std::string>();
+  }
+  return change;
+}
+
 Result<double> NumberIn(const Json& json, const char* field) {
   if (json.contains(field) && json[field].is_number()) return json[field].get<double>();
   return Fail(ErrorCode::kInvalidArgument, "'{}' is to be a number", field);
@@ -220,6 +238,39 @@ Result<LogInBody> ReadLogIn(const std::string& body) {
     *text = (*json)[field].get<std::string>();
   }
   return log_in;
+}
+
+Result<NewUserBody> ReadNewUser(const std::string& body) {
+  const auto json = ReadObject(body, {"user", "role", "password", "token"});
+  if (!json) return tl::unexpected(json.error());
+  const auto change = RoleAndPasswordIn(*json);
+  if (!change) return tl::unexpected(change.error());
+  const auto user = LineIn(*json, "user");
+  if (!user || !users::IsUserName(*user)) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "'user' is to be 1 to {} of letters, digits, '_', '.' and '-'",
+                users::kLongestName);
+  }
+  if (!change->role) {
+    return Fail(ErrorCode::kInvalidArgument, "'role' is to be look, operate or administer");
+  }
+  const bool token = json->contains("token");
+  if (token && (*json)["token"] != true) {
+    return Fail(ErrorCode::kInvalidArgument, "'token' is to be true, or absent");
+  }
+  if (token == change->password.has_value()) {
+    return Fail(ErrorCode::kInvalidArgument, "either 'password' or 'token' is to be there");
+  }
+  return NewUserBody{.user = *user, .role = *change->role, .password = change->password};
+}
+
+Result<UserChangeBody> ReadUserChange(const std::string& body) {
+  return ReadObject(body, {"role", "password"})
+      .and_then(RoleAndPasswordIn)
+      .and_then([](const UserChangeBody& change) -> Result<UserChangeBody> {
+        if (change.role || change.password) return change;
+        return Fail(ErrorCode::kInvalidArgument, "'role' or 'password' is to be there");
+      });
 }
 
 std::string MeBody(const users::Who& who, bool asks, const std::string& only_looks) {

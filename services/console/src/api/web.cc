@@ -25,6 +25,7 @@
 #include "services/console/src/api/routes/where_api.h"
 #include "services/console/src/api/runs/runs_api.h"
 #include "services/console/src/api/snapshots_api.h"
+#include "services/console/src/api/users_api.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/mission_client.h"
@@ -156,6 +157,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   ServeSnapshots(server_, desk_);
   if (runs != nullptr) ServeRuns(server_, desk_, *runs);
   access_.Serve(server_);
+  ServeUsers(server_, access_);
 }
 
 Result<std::unique_ptr<Web>> Web::Open(Desk& desk, Atlas& atlas, Site* site,
