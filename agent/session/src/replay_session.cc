@@ -8,15 +8,13 @@
 #include <string>
 #include <utility>
 
-#include "agent/session/src/features/feature_follower.h"
 #include "agent/session/src/frame_pace.h"
 #include "agent/session/src/front_end.h"
 #include "agent/session/src/mount_watch.h"
 #include "agent/session/src/place/known_route.h"
 #include "agent/session/src/place/localiser.h"
-#include "agent/session/src/place/view_follower.h"
 #include "agent/session/src/place/view_taker.h"
-#include "agent/session/src/standing.h"
+#include "agent/session/src/route_follower.h"
 #include "agent/session/src/upright_watch.h"
 #include "services/route/as_driven.h"
 
@@ -27,13 +25,8 @@ constexpr double kMostWithoutPicture_s = 3.0;
 constexpr double kFirstFrame_s = 1.0 / 30.0;
 // A robot that is put at the route's start may be this far from it, in the route's units.
 constexpr double kStart_sigma = 0.25;
-constexpr double kLeft_m = 0.5;  // distance from where it was left
-// Odometry that is trusted less than the first says next to nothing; trusted more than the second
-// it carries a robot.
-constexpr double kDoubted = 0.85;
-constexpr double kBelieved = 0.3;
-constexpr int kFewTracked = 8;  // the views are asked before these are missed
-constexpr double kThere = 0.5;  // distance from the belief's place, in the route's units
+constexpr double kLeft_m = 0.5;    // distance from where it was left
+constexpr double kDoubted = 0.85;  // odometry that is doubted more says next to nothing
 constexpr double kTurns_rad_per_m = 1.0;
 
 vision::IntakeOptions IntakeOf(const ReplayMethodOptions& options) {
@@ -42,36 +35,37 @@ vision::IntakeOptions IntakeOf(const ReplayMethodOptions& options) {
   return intake;
 }
 
+// Where the pictures contradict odometry, the robot may have come as far as the scout did in that
+// time, with the turns that this takes, beside what odometry tells.
+FrameInput Doubted(FrameInput seen, const Localiser& place) {
+  const double doubt = seen.frozen ? 1.0 : 1.0 - place.TrustInOdometry().value_or(1.0);
+  if (doubt < kDoubted || !seen.driven) return seen;
+  const double come_m = std::max(std::abs(seen.driven->distance_m), place.PaceAt_m(seen.dt_s));
+  seen.unknown.distance_m = std::hypot(seen.unknown.distance_m, doubt * come_m);
+  seen.unknown.heading_change_rad =
+      std::hypot(seen.unknown.heading_change_rad,
+                 doubt * (kTurns_rad_per_m * come_m + std::abs(seen.driven->heading_change_rad)));
+  return seen;
+}
+
 }  // namespace
 
-// This is a picture's path: the front end, the place, and how to steer and what to report, by
-// features or by views.
+// This is a picture's path: the front end, the place, and the follower that steers.
 struct ReplaySession::State {
   State(const ReplayMethodOptions& method, const route::RouteInfo& info)
       : options(method),
         route(info.segment_count),
         front_end(IntakeOf(method), !AsPrinted(method.method)),
         place(info.image_width_px),
-        scout{info.image_width_px, info.image_height_px},
-        by_views(method, route, place) {
-    by_features.emplace(method, scout, route, front_end, place);
+        scout{info.image_width_px, info.image_height_px} {
+    follower.emplace(method, scout, route, front_end, place, ViewFollower(method, route, place));
     if (method.take_experience) views_met.emplace(info.image_width_px, info.image_height_px);
   }
 
-  // Our own method goes by what is recognised if nothing tells how the robot or the scout moved.
-  [[nodiscard]] bool ByViews() const {
-    return options.method == ReplayMethod::kDefault &&
-           !(front_end.knows_motion() && route.segments().front().has_odometry);
-  }
   [[nodiscard]] ReplayStep StepWithoutPicture(const std::string& why);
   void NoteTime(SensorTime stamp);
   void StartPlace(int width_px);
   bool Locate(const FrameInput& seen);  // true if it examined what is recognised
-  void Doubt(FrameInput& seen) const;
-  [[nodiscard]] Evidence EvidenceOf(const ReplayStep& step) const;
-  [[nodiscard]] ReplayStep Follow(const FrameInput& seen, bool looked);
-  [[nodiscard]] bool CarriedByOdometry(const ReplayStep& features) const;
-  [[nodiscard]] bool ViewsKnowBetter(const ReplayStep& features, const ReplayStep& views) const;
   [[nodiscard]] ReplayStep Turned(double turn_deg, const Observation& observation);
   [[nodiscard]] ReplayStep StandMisturned();
 
@@ -82,14 +76,10 @@ struct ReplaySession::State {
   FramePace pace;
   Localiser place;
   vision::PictureSize scout;
-  std::optional<FeatureFollower> by_features;  // always set
-  ViewFollower by_views;
+  std::optional<RouteFollower> follower;  // always set
   std::optional<ViewTaker> views_met;
   std::optional<LeftAt> left;
   bool begun = false;  // a frame was seen while some of the route was known
-  Standing standing;
-  Standing of_features;          // the state of following by features alone
-  bool steers_by_views = false;  // in the last frame
   std::optional<SensorTime> last_stamp;
   double looked_s = 0.0;  // since the last frame, seen or not, but no longer than kLongestFrame_s
   double without_picture_s = 0.0;
@@ -97,12 +87,12 @@ struct ReplaySession::State {
   bool passed = false;     // it was not examined
   std::string turned;      // see ReplayStep
   bool misturned = false;  // its pictures mislead it in whatever it does
-  ReplayStep last;
+  ReplayStep last;         // with its status, which is the run's
 };
 
 // Handles a camera that gives no usable picture: the robot stands for a while.
 ReplayStep ReplaySession::State::StepWithoutPicture(const std::string& why) {
-  if (standing.state == ReplayState::kArrived || standing.state == ReplayState::kLost) return last;
+  if (last.state == ReplayState::kArrived || last.state == ReplayState::kLost) return last;
   ReplayStep report = last;
   without_picture_s += looked_s;
   const bool lost = without_picture_s > kMostWithoutPicture_s + kTimeSlack_s;
@@ -112,11 +102,8 @@ ReplayStep ReplaySession::State::StepWithoutPicture(const std::string& why) {
   report.evidence = Evidence::kNothing;
   report.reason = why;
   report.saw_nothing = true;
-  standing.trust = report.trust;
-  if (lost) {
-    standing.state = report.state;
-    last = report;
-  }
+  last.trust = report.trust;
+  if (lost) last = report;
   return report;
 }
 
@@ -138,92 +125,18 @@ void ReplaySession::State::StartPlace(int width_px) {
   }
 }
 
-// A robot that is sure of many features asks only now and then what is recognised of the route. One
-// that goes by what is recognised asks unless its picture stands still.
 bool ReplaySession::State::Locate(const FrameInput& seen) {
   if (!begun) StartPlace(seen.frame->width);
   FrameMotion along{seen.measured,           seen.told,  seen.flow, seen.dt_s,
                     seen.unknown.distance_m, seen.frozen};
-  if (by_features->reverses()) {
+  if (follower->reverses()) {
     if (along.odometry) along.odometry->distance_m = -along.odometry->distance_m;
     if (along.told) along.told->distance_m = -along.told->distance_m;
   }
   place.Move(along);
-  const bool asks = ByViews() ? place.HasMoved() : steers_by_views;
-  const bool few = std::ssize(front_end.tracker().Current()) < kFewTracked;
-  const bool looks = asks || few || standing.trust != Trust::kSure || place.LookIsDue();
+  const bool looks = follower->WantsLook(last.trust);
   if (looks) place.LookAt(*seen.followed_in, seen.frame->width);
   return looks;
-}
-
-Evidence ReplaySession::State::EvidenceOf(const ReplayStep& step) const {
-  if (step.state == ReplayState::kFollowing) {
-    return steers_by_views ? Evidence::kViews : Evidence::kFeatures;
-  }
-  return step.command == motion::VelocityCommand{} ? Evidence::kNothing : Evidence::kMotion;
-}
-
-// Where the pictures contradict odometry, the robot may have come as far as the scout did in that
-// time, with the turns that this takes, beside what odometry tells.
-void ReplaySession::State::Doubt(FrameInput& seen) const {
-  const double doubt = seen.frozen ? 1.0 : 1.0 - place.TrustInOdometry().value_or(1.0);
-  if (doubt < kDoubted || !seen.driven) return;
-  const double come_m = std::max(std::abs(seen.driven->distance_m), place.PaceAt_m(seen.dt_s));
-  seen.unknown.distance_m = std::hypot(seen.unknown.distance_m, doubt * come_m);
-  seen.unknown.heading_change_rad =
-      std::hypot(seen.unknown.heading_change_rad,
-                 doubt * (kTurns_rad_per_m * come_m + std::abs(seen.driven->heading_change_rad)));
-}
-
-// Recognised views count more than features that are not seen, or that lie where they should be if
-// the robot were somewhere else. Whatever stands before the camera hides both.
-bool ReplaySession::State::ViewsKnowBetter(const ReplayStep& features,
-                                           const ReplayStep& views) const {
-  const bool follows = features.state == ReplayState::kFollowing;
-  if (features.trust == Trust::kCovered || by_features->seeks_start()) return false;
-  // A handful of another camera's features agree with a place some metres off, which are too few to
-  // drive by.
-  constexpr int kToDriveBy = 10;
-  if (front_end.drives() && place.agreed_now() < kToDriveBy) return false;
-  if (views.state == ReplayState::kArrived) return !follows;
-  return views.state == ReplayState::kFollowing && (!follows || features.trust == Trust::kUnsure);
-}
-
-// Odometry that is trusted carries a robot over a short distance more exactly than a view steers
-// it, if the robot is recognised at its estimated place.
-bool ReplaySession::State::CarriedByOdometry(const ReplayStep& features) const {
-  const double apart = place.where().along - place.AlongOf({features.segment, features.fraction});
-  return features.command != motion::VelocityCommand{} && std::abs(apart) <= kThere &&
-         place.TrustInOdometry().value_or(0.0) >= kBelieved;
-}
-
-ReplayStep ReplaySession::State::Follow(const FrameInput& seen, bool looked) {
-  if (ByViews()) {
-    steers_by_views = true;
-    ReplayStep views = by_views.Step(seen.looked_s);
-    // Their flow tells whether the robot moves.
-    if (looked) front_end.FollowSomeOf(place.look().seen);
-    standing = StandingOf(views);
-    return views;
-  }
-  ReplayStep features = by_features->Report(by_features->Step(seen, of_features), of_features);
-  steers_by_views = false;
-  standing = of_features;
-  if (AsPrinted(options.method)) return features;
-  ReplayStep views = by_views.Step(seen.looked_s);
-  if (!ViewsKnowBetter(features, views)) return features;
-  if (views.state == ReplayState::kFollowing && CarriedByOdometry(features)) {
-    features.state = views.state;
-    features.trust = Trust::kUnsure;
-    standing = StandingOf(features);
-    return features;
-  }
-  steers_by_views = true;
-  views.sight = std::move(features.sight);
-  views.found_share = features.found_share;
-  views.hand_overs = features.hand_overs;
-  standing = StandingOf(views);
-  return views;
 }
 
 // The earlier frames were misread. The robot stands in this frame, and begins with the next.
@@ -236,12 +149,10 @@ ReplayStep ReplaySession::State::Turned(double turn_deg, const Observation& obse
       upright.Text(), turn_deg, intake.roll_deg);
   front_end.Turn(intake);
   picture = front_end.Pass(observation);
-  by_features.emplace(options, scout, route, front_end, place);
-  if (left) by_features->GoOnFrom(*left);
-  of_features = {};
-  standing = {ReplayState::kBlind, Trust::kSeeking, "turns its pictures as its camera hangs"};
-  steers_by_views = false;
-  ReplayStep step = by_features->Report({}, standing);
+  follower.emplace(options, scout, route, front_end, place, ViewFollower(follower->views()));
+  if (left) follower->GoOnFrom(*left);
+  ReplayStep step = follower->ReportOf({Trust::kSeeking, "turns its pictures as its camera hangs"},
+                                       ReplayState::kBlind);
   step.saw_nothing = true;
   step.turned = turned;
   return step;
@@ -252,17 +163,15 @@ ReplayStep ReplaySession::State::StandMisturned() {
   misturned = true;
   const double roll_deg =
       RollAfter(front_end.intake().roll_deg, *front_end.mount().roll_by_told_deg());
-  standing = {ReplayState::kLost, Trust::kLost,
-              fmt::format("{}. It stands rather than steer by that: {} with --camera-roll {:g}",
-                          front_end.mount().Text(),
-                          upright.upright() ? "teach the route again, whose pictures are so, too,"
-                                            : "begin again",
-                          roll_deg)};
   ReplayStep step = last;
   step.command = {};
-  step.state = standing.state;
-  step.trust = standing.trust;
-  step.reason = standing.reason;
+  step.state = ReplayState::kLost;
+  step.trust = Trust::kLost;
+  step.reason = fmt::format(
+      "{}. It stands rather than steer by that: {} with --camera-roll {:g}",
+      front_end.mount().Text(),
+      upright.upright() ? "teach the route again, whose pictures are so, too," : "begin again",
+      roll_deg);
   step.saw_nothing = true;
   return step;
 }
@@ -281,7 +190,7 @@ Result<void> ReplaySession::AddSegment(route::Segment segment) {
     return Fail(ErrorCode::kInvalidArgument, "segment {} was given where {} comes next",
                 segment.index.value(), next);
   }
-  s.by_features->Learn(segment);
+  s.follower->Learn(segment);
   s.place.Learn(segment);
   if (s.views_met) s.views_met->Learn(segment);
   s.route.Add(AsPrinted(s.options.method) ? std::move(segment)
@@ -293,7 +202,7 @@ void ReplaySession::MarkComplete() { state_->route.MarkComplete(); }
 
 void ReplaySession::GoOnFrom(const LeftAt& left) {
   state_->left = left;
-  state_->by_features->GoOnFrom(left);
+  state_->follower->GoOnFrom(left);
 }
 
 double ReplaySession::known_m() const {
@@ -311,27 +220,26 @@ Result<ReplayStep> ReplaySession::Observe(const Observation& observation) {
     return s.StepWithoutPicture(seen.error().message);
   }
   s.without_picture_s = 0.0;
-  const bool by_views = !s.route.segments().empty() && s.ByViews();
+  const bool by_views = !s.route.segments().empty() && s.follower->by_views_alone();
   s.front_end.Track(*seen, by_views ? FollowedFor::kFlow : FollowedFor::kPlace);
   s.picture = seen->frame;
   seen->looked_s = s.looked_s;
   if (!UsesOdometry(s.options.method)) seen->driven.reset();
-  if (s.standing.state == ReplayState::kArrived || s.misturned) return s.last;
-  if (s.route.segments().empty()) return s.by_features->Report({}, s.of_features);
+  if (s.last.state == ReplayState::kArrived || s.misturned) return s.last;
+  if (s.route.segments().empty()) return s.follower->ReportOf({}, ReplayState::kWaiting);
   const bool looked = s.Locate(*seen);
-  s.Doubt(*seen);
   if (s.front_end.mount().roll_by_told_deg().value_or(0.0) != 0.0)
     return s.last = s.StandMisturned();
   if (const auto turn_deg = s.upright.Look(*seen, s.place)) {
     return s.last = s.Turned(*turn_deg, observation);
   }
-  s.last = s.Follow(*seen, looked);
+  s.last = s.follower->Step(Doubted(std::move(*seen), s.place), looked);
   s.last.turned = s.turned;
-  if (s.views_met && looked && s.standing.trust == Trust::kSure) s.views_met->See(s.place);
+  if (s.views_met && looked && s.last.trust == Trust::kSure) s.views_met->See(s.place);
   if (!AsPrinted(s.options.method)) s.last.command = s.pace.Within(s.last.command);
   const belief::RouteBelief::Place& where = s.place.where();
   const double length = std::max(1e-9, s.place.belief().length());
-  s.last.evidence = s.EvidenceOf(s.last);
+  s.last.evidence = s.follower->EvidenceOf(s.last);
   if (const auto trust = s.place.TrustInOdometry()) {
     s.last.odometry = {*trust, std::nullopt};
     if (s.place.metric()) s.last.odometry->scale = s.place.ScaleOfWay();
@@ -346,15 +254,15 @@ void ReplaySession::Pass(const Observation& observation) {
 }
 
 std::optional<refresh::Visit> ReplaySession::TakeVisit() {
-  if (state_->standing.state != ReplayState::kArrived) return std::nullopt;
+  if (state_->last.state != ReplayState::kArrived) return std::nullopt;
   if (!state_->views_met) return std::nullopt;
-  refresh::Visit visit = state_->by_features->TakeVisit().value_or(refresh::Visit{});
+  refresh::Visit visit = state_->follower->TakeVisit().value_or(refresh::Visit{});
   state_->views_met->Take(visit);
   return visit;
 }
 
 std::optional<OwnLens> ReplaySession::lens() const {
-  auto lens = state_->by_features->lens();
+  auto lens = state_->follower->lens();
   if (lens) lens->roll_deg = state_->front_end.intake().roll_deg;
   return lens;
 }
@@ -362,7 +270,7 @@ std::optional<OwnLens> ReplaySession::lens() const {
 const image::GrayImage* ReplaySession::picture() const { return state_->picture; }
 
 std::vector<replay::FeatureView> ReplaySession::ViewFeatures(const ReplayStep& step) const {
-  const replay::Follower* follower = state_->by_features->follower();
+  const replay::Follower* follower = state_->follower->follower();
   if (follower == nullptr || state_->passed) return {};
   return replay::ViewFeatures(*follower, state_->front_end.tracker().Current(),
                               step.decision.roll_rad);

@@ -52,5 +52,45 @@ TEST(LikeliestPlaceTest, ItIsKnownNoBetterThanItsFeaturesTellIt) {
   ExpectPlaces({distant, near}, 210.0, 208.0, 213.5);
 }
 
+constexpr RouteExtent kTwentyMetres{20.0, true};
+
+TEST(BeginningTest, IsWhereEnoughAgree) {
+  const std::vector<PlaceByFeatures> compared = {Place(4.0, 12, 20), Place(9.0, 30, 32)};
+  const Beginning beginning = BeginningBy(compared, 10, kTwentyMetres);
+  ASSERT_TRUE(beginning.place);
+  EXPECT_EQ(beginning.place->best.along, 9.0);
+  EXPECT_EQ(beginning.nowhere, "");
+  const Beginning too_few = BeginningBy(compared, 31, kTwentyMetres);
+  EXPECT_FALSE(too_few.place);
+  EXPECT_EQ(too_few.nowhere, "") << "more may be seen in the next frame";
+}
+
+TEST(BeginningTest, IsNowhereAmongPlacesThatLookAlike) {
+  const std::vector<PlaceByFeatures> compared = {Place(4.0, 30, 32), Place(9.0, 30, 32)};
+  const Beginning beginning = BeginningBy(compared, 10, kTwentyMetres);
+  EXPECT_FALSE(beginning.place);
+  EXPECT_EQ(beginning.nowhere,
+            "from 4.0 m to 9.0 m along the route it looks alike: begin where more is near, or at "
+            "the beginning");
+  const Beginning without_metres = BeginningBy(compared, 10, {20.0, false});
+  EXPECT_EQ(without_metres.nowhere.substr(0, 41), "from 20 % of the route to 45 % of the rou");
+  EXPECT_TRUE(
+      BeginningBy(std::vector{Place(4.0, 30, 32), Place(7.0, 30, 32)}, 10, kTwentyMetres).place)
+      << "that is one place";
+}
+
+TEST(BeginningTest, MayBeALittleOutsideTheRoute) {
+  const auto from = [](double along) {
+    return BeginningBy(std::vector{Place(along, 30, 32)}, 10, kTwentyMetres);
+  };
+  EXPECT_TRUE(from(-0.9).place);
+  EXPECT_TRUE(from(20.9).place);
+  EXPECT_EQ(from(-1.1).nowhere,
+            "what it sees is of the route, from 1.1 m before its beginning: put it on the route");
+  EXPECT_EQ(from(21.5).nowhere,
+            "what it sees is of the route, from 1.5 m beyond its end: put it on the route");
+  EXPECT_FALSE(from(21.5).place);
+}
+
 }  // namespace
 }  // namespace trailcast::agent

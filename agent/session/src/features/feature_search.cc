@@ -1,12 +1,15 @@
 #include "agent/session/src/features/feature_search.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "agent/session/confidence.h"
 
 namespace trailcast::agent {
 namespace {
 
 // With a smaller share of the segment's features than this they are sought again from time to time.
-constexpr double kEnoughShare = 0.5;
+constexpr double kFewShare = 0.5;
 constexpr double kRefresh_s = 6.0 / 30.0;
 
 }  // namespace
@@ -28,6 +31,15 @@ void FeatureSearch::Follow(const std::vector<route::TrackedFeature>& found,
 
 void FeatureSearch::Note(SearchKind kind, const route::Segment& segment, bool wide) {
   searches_.push_back(SearchOf(kind, segment, front_end_.tracker().count(), wide));
+}
+
+void FeatureSearch::Begin(replay::Follower& follower, const route::Segment& segment) {
+  follower.Begin(segment);
+  if (follower.turning()) {
+    Forget();
+  } else {
+    HandOverTo(follower);
+  }
 }
 
 void FeatureSearch::HandOverTo(replay::Follower& follower) {
@@ -61,9 +73,18 @@ void FeatureSearch::TakeUpWhereLeft(const vision::FindResult& seen, replay::Foll
   Note(SearchKind::kRecovered, follower.segment(), false);
 }
 
+int FeatureSearch::InPicture(const replay::Follower& follower) const {
+  const std::vector<route::TrackedFeature> places = follower.Expect();
+  return static_cast<int>(
+      std::count_if(places.begin(), places.end(), [&](const route::TrackedFeature& place) {
+        return std::abs(place.u_px) < 0.5 * frame_->width &&
+               std::abs(place.v_px) < 0.5 * frame_->height;
+      }));
+}
+
 void FeatureSearch::Refresh(const replay::Follower& follower, int agreeing, double dt_s, bool now) {
   const route::Segment& segment = follower.segment();
-  const bool few = agreeing < kEnoughShare * static_cast<double>(segment.features.size());
+  const bool few = agreeing < kFewShare * static_cast<double>(segment.features.size());
   since_find_s_ += dt_s;
   const bool due = since_find_s_ + kTimeSlack_s >= kRefresh_s && few;
   if (!due && !now) return;

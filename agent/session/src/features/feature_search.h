@@ -23,6 +23,9 @@ class FeatureSearch {
   // Makes it seek in this frame from now on.
   void Open(const image::GrayImage& frame);
 
+  // Has `follower` begin the segment and finds its features, unless it turns on the spot first:
+  // then they are not in view yet.
+  void Begin(replay::Follower& follower, const route::Segment& segment);
   // Finds those of the segment that `follower` has just begun.
   void HandOverTo(replay::Follower& follower);
   // Returns those of any segment, as a robot at `point` sees them, or nothing if they are too few
@@ -37,6 +40,8 @@ class FeatureSearch {
   // Looks for features again, if that is due or `now`. Lost ones (blur, a passer-by) come back into
   // view, and for a robot that was carried off they are elsewhere.
   void Refresh(const replay::Follower& follower, int agreeing, double dt_s, bool now);
+  // Returns how many features of the segment should be in this frame.
+  [[nodiscard]] int InPicture(const replay::Follower& follower) const;
   // Follows nothing.
   void Forget() { front_end_.tracker().Follow({}); }
 

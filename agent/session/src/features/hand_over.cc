@@ -16,8 +16,8 @@ constexpr std::size_t kMagnificationsKept = 15;
 constexpr std::size_t kMagnificationsKnown = 10;  // weight of what an earlier run has learnt
 // These are the bounds of the search at any magnification, and how far, as a logarithm, one fit may
 // be from the run's magnification: a lens's distortion, or a patch seen from nearer.
-constexpr double kLeastMagnification = 0.15;
-constexpr double kMostMagnification = 6.5;
+constexpr double kLeastScale = 0.15;
+constexpr double kMostScale = 6.5;
 constexpr double kMagnificationApart = 0.3;
 constexpr double kEnoughShare = 0.4;  // found nearby: no wide search is needed
 constexpr std::size_t kEnoughToRecover = 10;
@@ -137,8 +137,7 @@ void HandOver::KnowMagnification(double magnification) {
 // One fit builds on the magnification of the last ones. Only what the whole run has recognised
 // bounds all of them.
 bool HandOver::Plausible(double magnification) const {
-  if (!std::isfinite(magnification) || magnification < kLeastMagnification ||
-      magnification > kMostMagnification) {
+  if (!std::isfinite(magnification) || magnification < kLeastScale || magnification > kMostScale) {
     return false;
   }
   const double run = recognised_magnification_.value_or(

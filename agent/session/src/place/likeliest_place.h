@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include "agent/session/src/place/route_place.h"
 
@@ -29,5 +30,27 @@ struct LikeliestPlace {
 
 // Returns nothing if none was compared.
 [[nodiscard]] std::optional<LikeliestPlace> LikeliestOf(std::span<const PlaceByFeatures> compared);
+
+// This is how much of a route is known.
+struct RouteExtent {
+  double length = 0.0;  // in the route's units
+  bool metric = true;   // those are metres
+};
+
+// Describes a part of the route for people.
+[[nodiscard]] std::string InWords(double way, const RouteExtent& route);
+
+// Places no further apart than this, in the route's units, count as one.
+inline constexpr double kOnePlace = 3.0;
+
+// This is where a robot begins to follow by what was compared.
+struct Beginning {
+  std::optional<LikeliestPlace> place;
+  std::string nowhere;  // why at none of them; empty if too few features agree anywhere
+};
+
+// Returns the likeliest place, if it is one place, on the route, where `enough` features agree.
+[[nodiscard]] Beginning BeginningBy(std::span<const PlaceByFeatures> compared, int enough,
+                                    const RouteExtent& route);
 
 }  // namespace trailcast::agent

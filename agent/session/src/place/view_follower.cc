@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,36 @@ std::vector<replay::SeenKeyView> SeenFrom(const Localiser& place, const Look& lo
   return seen;
 }
 
+bool SeesTheEnd(const Localiser& place) {
+  const double tolerance = place.metric() ? kArrived_m : kArrived;
+  return place.where().held && place.where().along >= place.belief().length() - tolerance;
+}
+
+bool HasCome(const Localiser& place) {
+  return place.where().come >=
+         std::min(place.metric() ? kCome_m : kCome, 0.5 * place.belief().length());
+}
+
+// Returns what comes, at the place or shortly after, that key views cannot steer through. In a turn
+// on the spot all views are of one place, whatever their direction, and none tells where to go. On
+// a part that is driven backwards they ask for the wrong turn.
+std::string_view DoesNotDrive(const KnownRoute& route, const Localiser& place) {
+  if (!place.where().held) return "";
+  const RoutePoint point = place.point();
+  if (route.segment(point.segment).reverse) return kReverse;
+  const RoutePoint next{SegmentIndex(point.segment.value() + 1), 0.0};
+  if (!route.has(next.segment.value()) || place.AlongOf(next) - place.where().along >= kTurn_m) {
+    return "";
+  }
+  if (route.segment(next.segment).reverse) return kReverse;
+  return std::abs(route.turn_after_rad(point.segment)) > kTurnsAway_rad ? kTurn : "";
+}
+
+std::string_view DoubtOf(const KnownRoute& route, const Localiser& place) {
+  if (const std::string_view what = DoesNotDrive(route, place); !what.empty()) return what;
+  return route.complete() && SeesTheEnd(place) && !HasCome(place) ? kOnlyTheEnd : "";
+}
+
 }  // namespace
 
 ViewSteering SteerByViews(const Localiser& place, double speed_mps,
@@ -58,40 +89,9 @@ ViewSteering SteerByViews(const Localiser& place, double speed_mps,
   return {turn, motion::Limit({speed_mps, -turn.turn_rad / kTurnTime_s}, limits)};
 }
 
-bool ViewFollower::SeesTheEnd() const {
-  const double tolerance = place_.metric() ? kArrived_m : kArrived;
-  return place_.where().held && place_.where().along >= place_.belief().length() - tolerance;
-}
-
-bool ViewFollower::HasCome() const {
-  return place_.where().come >=
-         std::min(place_.metric() ? kCome_m : kCome, 0.5 * place_.belief().length());
-}
-
-// Returns what comes, at the place or shortly after, that key views cannot steer through. In a turn
-// on the spot all views are of one place, whatever their direction, and none tells where to go. On
-// a part that is driven backwards they ask for the wrong turn.
-std::string_view ViewFollower::DoesNotDrive() const {
-  if (!place_.where().held) return "";
-  const RoutePoint point = place_.point();
-  if (route_.segment(point.segment).reverse) return kReverse;
-  const RoutePoint next{SegmentIndex(point.segment.value() + 1), 0.0};
-  if (!route_.has(next.segment.value()) || place_.AlongOf(next) - place_.where().along >= kTurn_m) {
-    return "";
-  }
-  if (route_.segment(next.segment).reverse) return kReverse;
-  return std::abs(route_.turn_after_rad(point.segment)) > kTurnsAway_rad ? kTurn : "";
-}
-
-std::string_view ViewFollower::Doubt() const {
-  if (const std::string_view what = DoesNotDrive(); !what.empty()) return what;
-  return route_.complete() && SeesTheEnd() && !HasCome() ? kOnlyTheEnd : "";
-}
-
-// `doubt` is a reason against driving on although the place is held, or empty.
-ReplayStep ViewFollower::Go(double dt_s, std::string_view doubt) {
+ReplayStep ViewFollower::Step(double dt_s) {
   const belief::RouteBelief::Place& where = place_.where();
-  Verdict verdict = trust_.Judge(where, dt_s, doubt);
+  Verdict verdict = trust_.Judge(where, dt_s, DoubtOf(route_, place_));
   const RoutePoint point = place_.point();
   const route::Segment& here = route_.segment(point.segment);
   const double speed_mps = here.has_odometry ? here.speed_mps() : route::kUsualSpeed_mps;
@@ -112,10 +112,7 @@ ReplayStep ViewFollower::Go(double dt_s, std::string_view doubt) {
   step.decision.agreeing = where.agreed;
   step.decision.fraction = point.fraction;
   if (step.state == ReplayState::kFollowing) step.command = steering.command;
-  return step;
-}
-
-void ViewFollower::EndAt(ReplayStep& step) const {
+  if (!SeesTheEnd(place_) || (route_.complete() && !HasCome(place_))) return step;
   step.command = {};
   step.segment = route_.segments().back().index;
   step.fraction = 1.0;
@@ -124,12 +121,6 @@ void ViewFollower::EndAt(ReplayStep& step) const {
   step.reason = route_.complete() ? "arrived at the end of the route"
                                   : fmt::format("waiting for segment {}: not received yet",
                                                 route_.segments().size());
-}
-
-ReplayStep ViewFollower::Step(double dt_s) {
-  const bool ends = SeesTheEnd() && (HasCome() || !route_.complete());
-  ReplayStep step = Go(dt_s, Doubt());
-  if (ends) EndAt(step);
   return step;
 }
 

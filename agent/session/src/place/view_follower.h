@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include "agent/session/replay_method.h"
 #include "agent/session/replay_step.h"
 #include "agent/session/src/place/known_route.h"
@@ -33,16 +31,6 @@ class ViewFollower {
   [[nodiscard]] ReplayStep Step(double dt_s);
 
  private:
-  // Tells that the end of the known route is in view and that the robot has come there. A view of
-  // the end from where the robot was put down may be of the beginning, as on a lap.
-  [[nodiscard]] bool SeesTheEnd() const;
-  [[nodiscard]] bool HasCome() const;
-  [[nodiscard]] std::string_view DoesNotDrive() const;
-  // Returns a reason against driving on although the place is held, or nothing.
-  [[nodiscard]] std::string_view Doubt() const;
-  [[nodiscard]] ReplayStep Go(double dt_s, std::string_view doubt);
-  void EndAt(ReplayStep& step) const;
-
   ReplayMethodOptions options_;
   const KnownRoute& route_;
   const Localiser& place_;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "agent/session/src/features/feature_follower.h"
+#include "agent/session/src/route_follower.h"
 
 namespace trailcast::agent {
 namespace {
@@ -13,33 +13,37 @@ constexpr double kUncertainSpeedFactor = 0.6;
 constexpr double kEndDeceleration_mps2 = 0.25;
 constexpr double kEndSpeed_mps = 0.08;
 
-}  // namespace
-
-// Returns less than all of it if the place beside the path is not known well, and before the robot
-// has to stand.
-double FeatureFollower::SpeedShare(const replay::FollowStep& step, Trust trust) const {
+// Returns the share of the method's speed that is driven: less than all of it if the place beside
+// the path is not known well, and before the robot has to stand.
+double SpeedShare(const Next& next, const route::Segment& segment, bool stands_after) {
+  const Trust trust = next.verdict.trust;
   const double share =
       trust == Trust::kBlind || trust == Trust::kDistant ? kUncertainSpeedFactor : 1.0;
-  const route::Segment& segment = follower_->segment();
-  if (AsPrinted(options_.method) || !route_.stands_after(segment.index) ||
-      step.command.linear_mps == 0.0) {
-    return share;
-  }
-  const double left_m = (1.0 - step.fraction) * segment.length_m;
+  const double speed_mps = std::abs(next.step.command.linear_mps);
+  if (!stands_after || speed_mps == 0.0) return share;
+  const double left_m = (1.0 - next.step.fraction) * segment.length_m;
   const double bound_mps = kEndSpeed_mps + std::sqrt(2.0 * kEndDeceleration_mps2 * left_m);
-  return std::min(share, bound_mps / std::abs(step.command.linear_mps));
+  return std::min(share, bound_mps / speed_mps);
 }
 
-ReplayStep FeatureFollower::Report(const replay::FollowStep& step, const Standing& standing) const {
-  const ReplayState state = standing.state;
+}  // namespace
+
+ReplayStep RouteFollower::ReportOf(const Verdict& verdict, ReplayState state) const {
   ReplayStep report;
   report.state = state;
-  report.trust = standing.trust;
+  report.trust = verdict.trust;
+  report.reason = verdict.reason;
   report.sight = {0, front_end_.tracker().losses(), search_.searches()};
-  report.reason = standing.reason;
   report.found_share = search_.hand_over().found_share();
   report.hand_overs = search_.hand_over().count();
   report.features = front_end_.tracker().count();
+  return report;
+}
+
+ReplayStep RouteFollower::Report(const Next& next) const {
+  const auto& step = next.step;
+  const ReplayState state = next.state();
+  ReplayStep report = ReportOf(next.verdict, state);
   if (!follower_) {
     report.command = step.command;
     return report;
@@ -61,11 +65,13 @@ ReplayStep FeatureFollower::Report(const replay::FollowStep& step, const Standin
   report.turn_rad = step.turn_rad;
   report.passing = passing_.says();
   report.decision = step;
-  const bool on_by_odometry =
-      state == ReplayState::kBlind && standing.trust == Trust::kBlind && by_odometry();
-  const bool looks_around = state == ReplayState::kBlind && look_around_.turns();
-  if (state == ReplayState::kFollowing || on_by_odometry || looks_around) {
-    const double share = SpeedShare(step, standing.trust);
+  const bool on_by_odometry = next.verdict.trust == Trust::kBlind && front_end_.knows_motion() &&
+                              UsesOdometry(options_.method);
+  const bool moves_blindly =
+      state == ReplayState::kBlind && (on_by_odometry || look_around_.turns());
+  if (state == ReplayState::kFollowing || moves_blindly) {
+    const bool stands_after = !AsPrinted(options_.method) && route_.stands_after(segment.index);
+    const double share = SpeedShare(next, segment, stands_after);
     report.command = {share * step.command.linear_mps, share * step.command.angular_radps};
   }
   return report;
