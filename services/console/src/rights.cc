@@ -29,7 +29,7 @@ constexpr Row kRows[] = {
     {"GET", "/api/alerts", Role::kLook},
     {"GET", "/api/missions", Role::kLook},
     {"GET", "/api/figures", Role::kLook},
-    {"GET", "/api/robots/*/glance", Role::kLook},
+    {"GET", "/api/robots/*/snapshot", Role::kLook},
     {"GET", "/api/commands", Role::kLook},
     {"GET", "/api/changes", Role::kLook},
     {"GET", "/api/routes", Role::kLook},

@@ -37,7 +37,7 @@ class SnapshotTest : public ConsoleFleetTest {
     std::string text;
   };
   Seen Look(const std::string& robot = "robot1") {
-    const auto got = Client().Get("/api/robots/" + robot + "/glance");
+    const auto got = Client().Get("/api/robots/" + robot + "/snapshot");
     if (!got) return {};
     return {got->status, got->body, got->get_header_value("Trailcast-Seen")};
   }
@@ -131,7 +131,7 @@ TEST_F(SnapshotTest, APersonSeesThePictureWhileItIsOpenInABrowser) {
   const auto asked = [&] {
     const json count = browser.Run(
         "return performance.getEntriesByType('resource').filter("
-        "(entry) => entry.name.endsWith('/glance')).length");
+        "(entry) => entry.name.endsWith('/snapshot')).length");
     return count.is_number() ? count.get<int>() : -1;
   };
   (void)browser.Run("performance.setResourceTimingBufferSize(100000)");
@@ -144,7 +144,7 @@ TEST_F(SnapshotTest, APersonSeesThePictureWhileItIsOpenInABrowser) {
   ASSERT_TRUE(browser.WaitForText("in their funnel lanes")) << browser.Text() << agent_->output();
   ASSERT_TRUE(browser.WaitForText("Lateral offset")) << browser.Text();
   const json lit = browser.Run(
-      "const canvas = document.querySelector('.glance canvas');"
+      "const canvas = document.querySelector('.snapshot canvas');"
       "const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;"
       "return new Set(data).size");
   EXPECT_GT(lit.is_number() ? lit.get<int>() : 0, 50) << "a picture has many shades";
@@ -164,7 +164,7 @@ TEST_F(SnapshotTest, APersonSeesThePictureWhileItIsOpenInABrowser) {
   };
   EXPECT_TRUE(rests()) << "out of view";
   const int before = asked();
-  (void)browser.Run("document.querySelector('.glance canvas').scrollIntoView()");
+  (void)browser.Run("document.querySelector('.snapshot canvas').scrollIntoView()");
   EXPECT_TRUE(WaitUntil([&] { return asked() > before; })) << "back in view";
   ASSERT_TRUE(browser.Click("//button[contains(., 'Camera')]"));
   EXPECT_TRUE(rests()) << "closed";

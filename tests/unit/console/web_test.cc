@@ -328,9 +328,9 @@ TEST_F(WebTest, WhatACameraSeesIsAPictureOrWhyThereIsNone) {
   const auto web = Web::Open(patient, atlas_, nullptr, "localhost", 0, {}).value();
   httplib::Client client("localhost", web->port());
   client.set_read_timeout(test::kLongEnough);
-  const auto picture = client.Get("/api/robots/robot1/glance");
-  const auto none = client.Get("/api/robots/robot1/glance");
-  const auto silent = Client().Get("/api/robots/robot7/glance");
+  const auto picture = client.Get("/api/robots/robot1/snapshot");
+  const auto none = client.Get("/api/robots/robot1/snapshot");
+  const auto silent = Client().Get("/api/robots/robot7/snapshot");
   ends = true;
   answering.join();
   ASSERT_TRUE(picture && none && silent);

@@ -1,5 +1,5 @@
 import type { Robot } from '../api';
-import { Glance } from './glance';
+import { Snapshot } from './snapshot';
 import { Badge, mayMove } from './state';
 import { useMay } from '../me';
 import { StopButton } from '../stop';
@@ -24,7 +24,7 @@ export function Cameras({ robots, settled, onStop }: { robots: Robot[]; settled:
               <a href={`#robot/${robot.name}`}>{robot.name}</a> <Badge state={robot.state} />
               {stops && <StopButton robot={robot.name} moves={mayMove(robot)} small onClick={() => onStop(robot.name)} />}
             </header>
-            <Glance robot={robot} brief />
+            <Snapshot robot={robot} brief />
           </li>
         ))}
       </ul>

@@ -3,7 +3,7 @@ import { forget, send, tell, type Answer, type Order, type Robot } from '../api'
 import { Copy } from '../copy';
 import { age } from '../fleet';
 import { Later } from '../later';
-import { Glance } from './glance';
+import { Snapshot } from './snapshot';
 import { useMay } from '../me';
 import { Send, Slide } from './send';
 import { Badge, isFree, mayMove } from './state';
@@ -103,13 +103,13 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
       {obeys && open === 'send' && may.send && <Slide label={`Slide to send ${robot.name} home`} onDone={() => order('home')} />}
       {obeys && open === 'teach' && may.teach && <Later show={({ Teach }) => <Teach robot={robot.name} onAnswer={sent} />} />}
       {obeys && open === 'locate' && may.locate && <Later show={({ Locate }) => <Locate robot={robot} onAnswer={sent} />} />}
-      {looking && seesIt && robot.teaches && <Glance robot={robot} brief />}
+      {looking && seesIt && robot.teaches && <Snapshot robot={robot} brief />}
       {obeys && robot.teaches && seen_ms === null && <Later show={({ Teaching }) => <Teaching robot={robot} onAnswer={say} />} />}
       {robot.route && !robot.teaches && robot.route_id && <Strip robot={robot} />}
       {robot.route && !robot.teaches && !robot.route_id && (
         <p className="note">Route {robot.route}: it has not found its place there yet.</p>
       )}
-      {looking && seesIt && !robot.teaches && <Glance robot={robot} />}
+      {looking && seesIt && !robot.teaches && <Snapshot robot={robot} />}
       {mission && (
         <p className="mission">
           Mission of {mission.sent_by || 'somebody'}: {mission.orders || '(orders not told)'} – <strong>{mission.state}</strong>{' '}

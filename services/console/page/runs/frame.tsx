@@ -1,5 +1,5 @@
 import { useEffect, useState } from 'react';
-import { marks, MarksLegend } from '../robot/glance';
+import { marks, MarksLegend } from '../robot/snapshot';
 import type { Frame, Seen, Verdict } from './runs';
 
 const words: Verdict[] = ['inside', 'left', 'right', 'rejected'];

@@ -40,7 +40,7 @@ void Look(Desk& desk, const std::string& robot, Response& response) {
 
 void ServeSnapshots(http::Server& server, Desk& desk) {
   const auto lookers = std::make_shared<std::atomic<int>>(0);
-  server.Get("/api/robots/([A-Za-z0-9_.-]{1,64})/glance",
+  server.Get("/api/robots/([A-Za-z0-9_.-]{1,64})/snapshot",
              [lookers, &desk](const Request& request, Response& response) {
                const std::shared_ptr<void> seat(nullptr, [&](void*) { --*lookers; });
                if (++*lookers > kMostLookers) {

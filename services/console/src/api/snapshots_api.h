@@ -5,7 +5,7 @@
 
 namespace trailcast::console {
 
-// Serves camera snapshots, `/api/robots/{robot}/glance` of openapi.yaml. No more requests than
+// Serves camera snapshots, `/api/robots/{robot}/snapshot` of openapi.yaml. No more requests than
 // kMostLookers wait for a picture, because each takes a thread. `desk` outlives the server.
 inline constexpr int kMostLookers = 16;
 void ServeSnapshots(http::Server& server, Desk& desk);

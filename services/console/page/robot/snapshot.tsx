@@ -22,7 +22,7 @@ function pull(robot: string, canvas: HTMLCanvasElement, tell: (look: Look) => vo
   const once = async (): Promise<number> => {
     const began = performance.now();
     try {
-      const reply = await fetch(`/api/robots/${robot}/glance`, { signal: giveUp.signal });
+      const reply = await fetch(`/api/robots/${robot}/snapshot`, { signal: giveUp.signal });
       if (!reply.ok) {
         tell({ text: '', marked: false, why: (await reply.json()).error });
         return kAgain_ms;
@@ -94,7 +94,7 @@ function beside(robot: Robot): string | null {
 }
 
 // `brief`: the picture, and in a line what the robot makes of it.
-export function Glance({ robot, brief = false }: { robot: Robot; brief?: boolean }) {
+export function Snapshot({ robot, brief = false }: { robot: Robot; brief?: boolean }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const [look, setLook] = useState<Look>({ text: '', marked: false, why: 'Waiting for a picture …' });
   useEffect(() => {
@@ -102,7 +102,7 @@ export function Glance({ robot, brief = false }: { robot: Robot; brief?: boolean
   }, [robot.name]);
   const place = beside(robot);
   return (
-    <figure className="glance">
+    <figure className="snapshot">
       <div className={look.why === null ? 'picture' : 'picture old'}>
         <canvas ref={canvas} width="320" height="240" role="img" aria-label={`What the camera of ${robot.name} sees`} />
         {look.why !== null && <p className="why">{look.why}</p>}
