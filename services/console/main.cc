@@ -141,8 +141,8 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
   auto courier = OpenCourier(options.webhooks);
   if (!courier) return program::Complain(app, Wrap(courier.error(), "--webhooks").value());
   if (*courier) {
-    desk_options.look = [&](program::Json alerts, program::Json missions) {
-      (*courier)->Look(std::move(alerts), std::move(missions));
+    desk_options.look = [&](program::Json all_alerts, program::Json missions) {
+      (*courier)->Look(std::move(all_alerts), std::move(missions));
     };
   }
   console::Desk desk(peer->self, std::move(peer->exchange), std::move(desk_options));
