@@ -11,6 +11,7 @@
 #include "route_server/fleet/fleet_news.h"
 #include "route_server/fleet/mission_board.h"
 #include "route_server/fleet/route_followers.h"
+#include "route_server/fleet/schedule_board.h"
 #include "route_server/joints/joint_desk.h"
 #include "route_server/network/lane_keeper.h"
 #include "route_server/network/network_board.h"
@@ -99,6 +100,12 @@ class Server {
                                                      const exchange::CatalogRequest& request);
   void TellAgents();
   void TellMissions();
+  // Sends scheduled missions, and answers and changes what is asked of schedules. Returns false for
+  // a request that is about something else.
+  [[nodiscard]] Result<void> OpenSchedules();
+  void TellSchedules();
+  [[nodiscard]] bool ServeSchedules(const exchange::Message& request);
+  [[nodiscard]] std::string ClosedIn(const std::string& orders);
   void Replan(const AgentId& agent);
   void KeepWays();
   void NoteViews(const exchange::RouteAnnouncement& announcement);
@@ -142,9 +149,10 @@ class Server {
   std::vector<exchange::Message> replies_;  // to requests that the keeper does not answer
   FleetNews fleet_;
   RouteFollowersBoard followers_;
-  std::unique_ptr<MissionBoard> missions_;  // null if it keeps none
-  std::unique_ptr<NetworkBoard> network_;   // likewise
-  std::unique_ptr<JointDesk> joints_;       // for that
+  std::unique_ptr<MissionBoard> missions_;    // null if it keeps none
+  std::unique_ptr<ScheduleBoard> schedules_;  // in the missions' store
+  std::unique_ptr<NetworkBoard> network_;     // null if it keeps none
+  std::unique_ptr<JointDesk> joints_;         // for that
   bool takes_sure_joints_ = false;
   RefreshWatch refreshes_;
   std::uint64_t refresh_request_;                        // of the server's own next edit

@@ -12,7 +12,7 @@ namespace trailcast::schedule {
 
 // This is a schedule as a server has it.
 struct Listed {
-  // What became of the last time that it was due, for one robot.
+  // This tells what became of the last time that it was due, for one robot.
   struct Sent {
     std::string robot{};
     std::string mission{};  // its name; empty if none was ever sent

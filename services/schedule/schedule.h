@@ -20,7 +20,7 @@ inline constexpr std::size_t kMostNameBytes = 48;
 
 inline constexpr int kMinutesADay = 24 * 60;
 
-// What becomes of times that have passed while no server was there.
+// This says how times are treated that have passed while no server was there.
 enum class Missed : std::uint8_t {
   kSkip,  // they are left out
   kOnce,  // one mission is sent for all of them
