@@ -20,6 +20,7 @@ import { mayMove } from './robot/state';
 import { trace } from './robot/trace';
 import { Routes } from './routes/routes';
 import { History } from './runs/history';
+import { Schedules } from './schedules/schedules';
 import { StopButton } from './stop';
 import { ThemeChoice } from './theme';
 
@@ -96,7 +97,7 @@ function Page() {
   }, [fleet]);
   const onWall = page === 'wall';
   const told = unacknowledged(alerts);
-  const shown = page === 'robot' ? open : { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', history: 'History', wall: 'Wall' }[page];
+  const shown = page === 'robot' ? open : { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', schedules: 'Schedules', history: 'History', wall: 'Wall' }[page];
   useEffect(() => {
     document.title = `${lost ? '⚠ Connection lost' : `${told > 0 ? `(${told}) ` : ''}${shown}`} – Trailcast`;
   }, [told, lost, shown]);
@@ -159,6 +160,7 @@ function Page() {
         {page === 'cameras' && <Cameras robots={robots} settled={settled} onStop={onStop} />}
         {page === 'network' && <NetworkPage robots={robots} live={fleet?.routes ?? []} />}
         {page === 'routes' && <Routes open={open} now_ms={now_ms - now_ms % kStep_ms} />}
+        {page === 'schedules' && <Schedules />}
         {page === 'history' && <History open={open} live={fleet?.missions ?? []} now_ms={now_ms} />}
       </main>
       {!onWall && <footer>

@@ -25,6 +25,7 @@
 #include "services/console/src/api/routes/transfers_api.h"
 #include "services/console/src/api/routes/where_api.h"
 #include "services/console/src/api/runs/runs_api.h"
+#include "services/console/src/api/schedules_api.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/mission_client.h"
@@ -150,6 +151,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   ServeRoutes(server_, desk_);
   ServeMap(server_, atlas, site);
   ServeNetwork(server_, desk_, network_, access_);
+  ServeSchedules(server_, desk_, access_);
   ServeDriving(server_, desk_);
   ServeWhere(server_, desk_);
   if (join) ServeTransfers(server_, desk_, transfers_.emplace(std::move(join)));
