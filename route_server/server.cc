@@ -116,7 +116,7 @@ Result<void> Server::KeepMissions(std::unique_ptr<store::MissionStore> store) {
   if (!registry) return tl::unexpected(registry.error());
   missions_ = std::move(*registry);
   KeepWays();
-  return {};
+  return OpenSchedules();
 }
 
 Result<void> Server::KeepNetwork(std::unique_ptr<store::NetworkStore> store) {
@@ -169,6 +169,7 @@ void Server::Receive(exchange::Message message) {
       missions_->Take(requests_.TakeMissions(), now, NowUnixMs());
     }
     missions_->Handle(message, now, NowUnixMs());
+    schedules_->Hear(message);
   }
   if (passed_on) return;
   presence_.Handle(message);
@@ -310,6 +311,7 @@ void Server::TellAgents() {
 
 void Server::TellMissions() {
   if (!missions_) return;
+  TellSchedules();
   // Anything that cannot be sent is requested, or sent, again.
   (void)exchange::PublishAll(*exchange_, missions_->Tick(steady_clock::now(), NowUnixMs()));
   for (const MissionRegistry::Note& note : missions_->TakeNotes()) {

@@ -11,6 +11,7 @@
 #include "route_server/fleet/fleet_news.h"
 #include "route_server/fleet/mission_registry.h"
 #include "route_server/fleet/route_followers.h"
+#include "route_server/fleet/schedule_registry.h"
 #include "route_server/junctions/junction_finder.h"
 #include "route_server/network/network_registry.h"
 #include "route_server/network/replanning.h"
@@ -99,6 +100,12 @@ class Server {
                                                      const exchange::CatalogRequest& request);
   void TellAgents();
   void TellMissions();
+  // Sends scheduled missions, and answers and changes what is asked of schedules. Returns false for
+  // a request that is about something else.
+  [[nodiscard]] Result<void> OpenSchedules();
+  void TellSchedules();
+  [[nodiscard]] bool ServeSchedules(const exchange::Message& request);
+  [[nodiscard]] std::string ClosedIn(const std::string& orders);
   void Replan(const AgentId& agent);
   void KeepWays();
   void NoteViews(const exchange::RouteAnnouncement& announcement);
@@ -143,7 +150,8 @@ class Server {
   FleetNews fleet_;
   FollowerRegistry followers_;
   std::unique_ptr<MissionRegistry> missions_;  // null if it keeps none
-  std::unique_ptr<NetworkRegistry> network_;   // likewise
+  std::unique_ptr<ScheduleRegistry> schedules_;  // in the missions' store
+  std::unique_ptr<NetworkRegistry> network_;   // null if it keeps none
   std::unique_ptr<JunctionFinder> junctions_;  // for that
   bool takes_sure_junctions_ = false;
   RefreshWatch refreshes_;

@@ -58,6 +58,7 @@ class MissionRegistry {
   };
   [[nodiscard]] std::vector<Note> TakeNotes() { return std::exchange(notes_, {}); }
   [[nodiscard]] std::size_t unanswered() const;
+  [[nodiscard]] store::MissionStore& store() { return *store_; }
   // Returns why the last attempt to store something failed, or an empty text.
   [[nodiscard]] const std::string& untaken() const { return untaken_; }
 

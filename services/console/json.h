@@ -7,6 +7,7 @@
 #include "services/base/result.h"
 #include "services/console/driving.h"
 #include "services/route/route_edit.h"
+#include "services/schedule/schedule.h"
 #include "services/users/guard.h"
 
 namespace trailcast::console {
@@ -37,6 +38,9 @@ struct SendBody {
 
 // Reads {"words": ".."}, a change of the network in a server's words (network/words.h).
 [[nodiscard]] Result<std::string> ReadNetworkEdit(const std::string& body);
+
+// Reads {"words": ".."}, a new schedule (schedule/schedule.h).
+[[nodiscard]] Result<schedule::Schedule> ReadSchedule(const std::string& body);
 
 struct LogInBody {
   std::string user;

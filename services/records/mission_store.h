@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,10 +14,10 @@
 
 namespace trailcast::store {
 
-// Keeps missions and commands, and what became of them, in a SQLite file of its own, created if
-// missing. A call's data is on the disk when it returns. Errors name the file: kUnavailable (disk
-// full, no such folder), kConflict (another process has it open), kCorrupt (not our file, or a
-// damaged one).
+// Keeps missions, schedules and commands, and what became of them, in a SQLite file of its own,
+// created if missing. A call's data is on the disk when it returns. Errors name the file:
+// kUnavailable (disk full, no such folder), kConflict (another process has it open), kCorrupt (not
+// our file, or a damaged one).
 class MissionStore {
  public:
   // The oldest ended missions and the oldest commands are deleted once there are one per cent more
@@ -58,6 +59,33 @@ class MissionStore {
   [[nodiscard]] Result<void> Put(const Hold& hold);
   [[nodiscard]] Result<void> ForgetHold(const AgentId& agent);
   [[nodiscard]] Result<std::vector<Hold>> Holds();
+
+  // A mission that is sent at times, in words (schedule/schedule.h), and what became of the last
+  // time that it was due.
+  struct Schedule {
+    struct Sent {
+      AgentId agent{};
+      std::string mission{};  // the last that was sent; empty if none was
+      std::string why{};      // why none was sent the last time; empty if one was
+      bool operator==(const Sent&) const = default;
+    };
+    std::string name{};
+    std::string words{};
+    std::string by{};
+    std::string paused_by{};          // empty if it is not paused
+    std::int64_t looked_unix_ms = 0;  // until then its times have been seen to
+    std::int64_t last_unix_ms = 0;    // when it was due last; 0 if it never was
+    std::string outcome{};            // why nobody was sent then
+    std::vector<Sent> sent{};         // by agent
+    bool operator==(const Schedule&) const = default;
+  };
+  // Adds a schedule, or changes the one of that name.
+  [[nodiscard]] Result<void> Put(const Schedule& schedule);
+  [[nodiscard]] Result<void> ForgetSchedule(const std::string& name);
+  [[nodiscard]] Result<std::vector<Schedule>> Schedules();  // by name
+
+  [[nodiscard]] Result<std::optional<mission::Record>> Get(const AgentId& agent,
+                                                           const std::string& id);
 
   struct Page {
     std::vector<mission::Record> missions{};  // the newest first

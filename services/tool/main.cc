@@ -20,6 +20,7 @@ constexpr const char* kMainExamples =
     "  trailcast junctions --store server.db     # where routes come to the same place\n"
     "  trailcast fleet                        # robots that are heard, and how they are\n"
     "  trailcast send robot2 follow hall      # an available robot; see 'missions', too\n"
+    "  trailcast schedule list                # missions at times: see its --help\n"
     "  trailcast network join hall@12 office@0   # routes become a network\n"
     "  trailcast send robot2 goto office@8    # the best way over it\n"
     "  trailcast snapshot robot2                # what its camera sees, as a picture\n"
@@ -60,6 +61,7 @@ int Run(int argc, char** argv) {
   for (Command& command : trailcast::tool::AddMissionCommands(app, common)) {
     commands.push_back(std::move(command));
   }
+  commands.push_back(trailcast::tool::AddScheduleCommand(app, common));
   for (Command& command : trailcast::tool::AddNowCommands(app, common)) {
     commands.push_back(std::move(command));
   }

@@ -11,6 +11,7 @@
 #include "services/console/parameters.h"
 #include "services/console/site.h"
 #include "services/exchange/bounds.h"
+#include "services/schedule/listed.h"
 #include "tests/fuzz/fuzz.h"
 
 using trailcast::fuzz::Require;
@@ -112,6 +113,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const exchange::NetworkEdit change{AgentId("desk"), 1, *words};
     Require(exchange::CheckBounds(change).has_value(), "a change may be published");
   }
+  if (const auto read = console::ReadSchedule(body)) {
+    const auto again = schedule::ParseSchedule(ToText(*read));
+    Require(again && *again == *read, "a schedule is read as it is written");
+  }
+  (void)schedule::ParseLines(LinesIn(body));
   (void)console::ErrorBody(body);
   if (const auto users = users::ParseUsers(body)) {
     const auto again = users::ParseUsers(users::TextOf(*users));

@@ -134,6 +134,17 @@ TEST_F(DocumentedRuns, AFleetGetsKeysAndAStolenOneIsRevoked) {
   EXPECT_TRUE(Has("fleet/revoked.pem"));
 }
 
+TEST_F(DocumentedRuns, RobotsAreSentAtSetTimes) {
+  std::vector<std::string> lines = ShellBelow(PageAt("docs/how-to/schedules.md"), "");
+  ASSERT_THAT(lines, SizeIs(7));
+  for (std::string& line : lines) {
+    if (line.find("schedule add") != std::string::npos) line += " --unheard";  // no robot is here
+  }
+  const auto server = Shell("exec trailcast-server --store server.db");
+  ASSERT_TRUE(server->WaitForOutput("ready")) << server->output();
+  Type(lines);
+}
+
 TEST_F(DocumentedRuns, LinesBelowAHeadingAreFound) {
   std::istringstream text("# One\n\n    a  # why\n\n# Two\n\ntext\n\n    b &\n    # c\n");
   const Document page = ReadDocument("page.md", text);

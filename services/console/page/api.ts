@@ -156,7 +156,7 @@ export async function get<Reply>(path: string, parameters: Record<string, string
 }
 
 // What is there then, or why nothing has changed.
-export async function change<Reply>(method: 'PUT' | 'DELETE', path: string, body: object | null): Promise<Reply | string> {
+export async function change<Reply>(method: 'POST' | 'PUT' | 'DELETE', path: string, body: object | null): Promise<Reply | string> {
   try {
     const { json } = await ask(path, {
       method,

@@ -93,7 +93,7 @@ function Page() {
   }, [fleet]);
   const onWall = page === 'wall';
   const told = unacknowledged(alerts);
-  const shown = page === 'robot' ? open : { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', history: 'History', wall: 'Wall', users: 'Users' }[page];
+  const shown = page === 'robot' ? open : { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', schedules: 'Schedules', history: 'History', wall: 'Wall', users: 'Users' }[page];
   useEffect(() => {
     document.title = `${lost ? '⚠ Connection lost' : `${told > 0 ? `(${told}) ` : ''}${shown}`} – Trailcast`;
   }, [told, lost, shown]);
@@ -156,6 +156,7 @@ function Page() {
         {page === 'cameras' && <Later show={({ Cameras }) => <Cameras robots={robots} settled={settled} onStop={onStop} />} />}
         {page === 'network' && <Later show={({ NetworkPage }) => <NetworkPage robots={robots} live={fleet?.routes ?? []} />} />}
         {page === 'routes' && <Later show={({ Routes }) => <Routes open={open} now_ms={now_ms - now_ms % kStep_ms} />} />}
+        {page === 'schedules' && <Later show={({ Schedules }) => <Schedules />} />}
         {page === 'history' && <Later show={({ History }) => <History open={open} live={fleet?.missions ?? []} now_ms={now_ms} />} />}
         {page === 'users' && <Later show={({ Users }) => <Users />} />}
       </main>

@@ -1,7 +1,7 @@
 import { useEffect, useState } from 'react';
 
 // What stands behind the address's #: "#routes", and "#routes/.." for what is open on that page.
-const pages = { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', history: 'History' };
+const pages = { fleet: 'Home', cameras: 'Cameras', network: 'Network', routes: 'Routes', schedules: 'Schedules', history: 'History' };
 
 // A robot's own page, a wall's screen and the users have no place in the list.
 const others = ['wall', 'users'];

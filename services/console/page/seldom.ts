@@ -8,4 +8,5 @@ export { Locate } from './robot/locate';
 export { Teach, Teaching } from './robot/teach';
 export { Routes } from './routes/routes';
 export { History } from './runs/history';
+export { Schedules } from './schedules/schedules';
 export { Users } from './users';

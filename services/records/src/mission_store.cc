@@ -72,6 +72,22 @@ CREATE TABLE IF NOT EXISTS queue_hold (
   why TEXT NOT NULL,
   at_unix_ms INTEGER NOT NULL
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS schedule (
+  name TEXT PRIMARY KEY,
+  words TEXT NOT NULL,
+  made_by TEXT NOT NULL,
+  paused_by TEXT NOT NULL,
+  looked_unix_ms INTEGER NOT NULL,
+  last_unix_ms INTEGER NOT NULL,
+  outcome TEXT NOT NULL
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS schedule_sent (
+  name TEXT NOT NULL,
+  agent TEXT NOT NULL,
+  mission TEXT NOT NULL,
+  why TEXT NOT NULL,
+  PRIMARY KEY (name, agent)
+) STRICT, WITHOUT ROWID;
 )"};
 
 constexpr const char* kColumns =
@@ -115,6 +131,26 @@ MissionStore::Hold HoldIn(SQLite::Statement& row) {
   return {.agent = AgentId(row.getColumn(0).getString()),
           .why = row.getColumn(1).getString(),
           .unix_ms = row.getColumn(2).getInt64()};
+}
+
+MissionStore::Schedule ScheduleIn(SQLite::Statement& row) {
+  return {.name = row.getColumn(0).getString(),
+          .words = row.getColumn(1).getString(),
+          .by = row.getColumn(2).getString(),
+          .paused_by = row.getColumn(3).getString(),
+          .looked_unix_ms = row.getColumn(4).getInt64(),
+          .last_unix_ms = row.getColumn(5).getInt64(),
+          .outcome = row.getColumn(6).getString(),
+          .sent = {}};
+}
+
+using NamedSent = std::pair<std::string, MissionStore::Schedule::Sent>;
+
+NamedSent SentIn(SQLite::Statement& row) {
+  return {row.getColumn(0).getString(),
+          {.agent = AgentId(row.getColumn(1).getString()),
+           .mission = row.getColumn(2).getString(),
+           .why = row.getColumn(3).getString()}};
 }
 
 mission::GivenCommand CommandIn(SQLite::Statement& row) {
@@ -329,6 +365,56 @@ Result<void> MissionStore::ForgetHold(const AgentId& agent) {
 Result<std::vector<MissionStore::Hold>> MissionStore::Holds() {
   return database_->Read("reading which queues are held",
                          "SELECT agent, why, at_unix_ms FROM queue_hold", HoldIn);
+}
+
+Result<void> MissionStore::Put(const Schedule& schedule) {
+  return database_->AllOrNothing("storing schedule " + schedule.name, [&]() -> Result<void> {
+    database_->Run(
+        "INSERT OR REPLACE INTO schedule (name, words, made_by, paused_by, looked_unix_ms, "
+        "last_unix_ms, outcome) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
+        schedule.name, schedule.words, schedule.by, schedule.paused_by, schedule.looked_unix_ms,
+        schedule.last_unix_ms, schedule.outcome);
+    database_->Run("DELETE FROM schedule_sent WHERE name = ?1", schedule.name);
+    for (const Schedule::Sent& sent : schedule.sent) {
+      database_->Run(
+          "INSERT INTO schedule_sent (name, agent, mission, why) VALUES (?1, ?2, ?3, ?4)",
+          schedule.name, sent.agent.value(), sent.mission, sent.why);
+    }
+    return {};
+  });
+}
+
+Result<void> MissionStore::ForgetSchedule(const std::string& name) {
+  return database_->AllOrNothing("removing schedule " + name, [&]() -> Result<void> {
+    database_->Run("DELETE FROM schedule WHERE name = ?1", name);
+    database_->Run("DELETE FROM schedule_sent WHERE name = ?1", name);
+    return {};
+  });
+}
+
+Result<std::vector<MissionStore::Schedule>> MissionStore::Schedules() {
+  auto all = database_->Read("reading schedules",
+                             "SELECT name, words, made_by, paused_by, looked_unix_ms, "
+                             "last_unix_ms, outcome FROM schedule ORDER BY name",
+                             ScheduleIn);
+  const auto sent = database_->Read(
+      "reading what schedules have sent",
+      "SELECT name, agent, mission, why FROM schedule_sent ORDER BY name, agent", SentIn);
+  if (!all) return all;
+  if (!sent) return tl::unexpected(sent.error());
+  for (const auto& [name, each] : *sent) {
+    const auto of = std::find_if(all->begin(), all->end(),
+                                 [&](const Schedule& schedule) { return schedule.name == name; });
+    if (of != all->end()) of->sent.push_back(each);
+  }
+  return all;
+}
+
+Result<std::optional<mission::Record>> MissionStore::Get(const AgentId& agent,
+                                                         const std::string& id) {
+  return database_->Guarded(
+      "reading mission " + id,
+      [&]() -> Result<std::optional<mission::Record>> { return database_->Get(agent, id); });
 }
 
 Result<MissionStore::Page> MissionStore::Find(const mission::Query& query) {

@@ -42,6 +42,7 @@ inline int ComplainOfUsage(const CLI::App& app, const Error& error) {
 [[nodiscard]] std::vector<Command> AddNowCommands(CLI::App& parent,
                                                   const program::CommonOptions& common);
 [[nodiscard]] Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common);
+[[nodiscard]] Command AddScheduleCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddTrialCommand(CLI::App& parent);
 [[nodiscard]] Command AddFiguresCommand(CLI::App& parent);
 [[nodiscard]] Command AddExplainCommand(CLI::App& parent);

@@ -310,14 +310,48 @@ TEST_F(MissionStoreTest, KeepsWhichQueuesAreHeldAndWhyOverARestart) {
   EXPECT_THAT(*holds, ElementsAre(Hold{AgentId("robot1"), "", 2000}));
 }
 
+TEST_F(MissionStoreTest, KeepsSchedulesAndWhatTheyHaveSentOverARestart) {
+  using Schedule = MissionStore::Schedule;
+  Schedule kept{
+      .name = "round",
+      .words = "round to robot1 ..",
+      .by = "desk",
+      .paused_by = "boss",
+      .looked_unix_ms = 2000,
+      .last_unix_ms = 1000,
+      .outcome = "hall is closed",
+      .sent = {{AgentId("robot1"), "round-1", ""}, {AgentId("robot2"), "", "its battery"}}};
+  ASSERT_TRUE(store_->Put(kept));
+  ASSERT_TRUE(store_->Put(Schedule{.name = "gone", .sent = kept.sent}));
+  ASSERT_TRUE(store_->ForgetSchedule("gone"));
+  ASSERT_TRUE(store_->ForgetSchedule("never"));
+  kept.sent.pop_back();
+  kept.paused_by.clear();
+  ASSERT_TRUE(store_->Put(kept));
+  ASSERT_TRUE(store_->Put(Schedule{.name = "another"}));
+  Reopen();
+  const auto schedules = store_->Schedules();
+  ASSERT_TRUE(schedules) << schedules.error().message;
+  EXPECT_THAT(*schedules, ElementsAre(Schedule{.name = "another"}, kept));
+}
+
+TEST_F(MissionStoreTest, GetsOneMission) {
+  Add(For("robot1", "m1"));
+  const auto found = store_->Get(AgentId("robot1"), "m1");
+  ASSERT_TRUE(found && *found);
+  EXPECT_EQ((*found)->mission, For("robot1", "m1"));
+  EXPECT_EQ(store_->Get(AgentId("robot2"), "m1").value(), std::nullopt);
+}
+
 // The file is as an earlier program has left it.
-TEST_F(MissionStoreTest, AFileWithoutHeldQueuesIsGivenThem) {
+TEST_F(MissionStoreTest, AFileWithoutHeldQueuesAndSchedulesIsGivenThem) {
   Add(For("robot1", "m1"));
   store_.reset();
   SQLite::Database((folder_ / "missions").string(), SQLite::OPEN_READWRITE)
-      .exec("DROP TABLE queue_hold");
+      .exec("DROP TABLE queue_hold; DROP TABLE schedule; DROP TABLE schedule_sent");
   Reopen();
   EXPECT_TRUE(store_->Put(MissionStore::Hold{AgentId("robot1"), "stopped", 1000}));
+  EXPECT_TRUE(store_->Put(MissionStore::Schedule{.name = "round"}));
   EXPECT_THAT(Found({}), ElementsAre("m1"));
 }
 

@@ -226,6 +226,12 @@ Result<std::string> ReadNetworkEdit(const std::string& body) {
       });
 }
 
+Result<schedule::Schedule> ReadSchedule(const std::string& body) {
+  return ReadObject(body, {"words"})
+      .and_then([](const Json& json) { return LineIn(json, "words"); })
+      .and_then([](const std::string& words) { return schedule::ParseSchedule(words); });
+}
+
 Result<LogInBody> ReadLogIn(const std::string& body) {
   const auto json = ReadObject(body, {"user", "password"});
   if (!json) return tl::unexpected(json.error());

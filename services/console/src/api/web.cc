@@ -24,6 +24,7 @@
 #include "services/console/src/api/routes/transfers_api.h"
 #include "services/console/src/api/routes/where_api.h"
 #include "services/console/src/api/runs/runs_api.h"
+#include "services/console/src/api/schedules_api.h"
 #include "services/console/src/api/snapshots_api.h"
 #include "services/console/src/api/users_api.h"
 #include "services/exchange/bounds.h"
@@ -151,6 +152,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   ServeRoutes(server_, desk_);
   ServeMap(server_, atlas, site);
   ServeNetwork(server_, desk_, network_, access_);
+  ServeSchedules(server_, desk_, access_);
   ServeDriving(server_, desk_);
   ServeWhere(server_, desk_);
   if (join) ServeTransfers(server_, desk_, transfers_.emplace(std::move(join)));

@@ -1,0 +1,137 @@
+// Schedules over HTTP, from a server's part in this process.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "route_server/fleet/schedule_board.h"
+#include "services/base/unix_time.h"
+#include "services/console/web.h"
+#include "services/exchange/bounds.h"
+#include "services/exchange/in_process_exchange.h"
+#include "services/fleet/routes/route_export.h"
+#include "tests/support/temp_dir.h"
+#include "tests/unit/console/described.h"
+
+namespace trailcast::console {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+
+class SchedulesApiTest : public testing::Test {
+ protected:
+  void Serve() {
+    store_ = store::MissionStore::Open(folder_ / "missions").value();
+    board_ =
+        server::ScheduleBoard::Open(AgentId("barn"), *store_,
+                                    {.take = [](const auto&, auto, auto) {},
+                                     .closed = [](const std::string&) { return std::string(); }})
+            .value();
+    server_ = std::jthread([this](const std::stop_token& stop) {
+      const auto exchange = bus_.Open(exchange::ServerTopics());
+      while (!stop.stop_requested()) {
+        for (const exchange::Message& message : exchange->Take(milliseconds(5))) {
+          if (const auto* asked = std::get_if<exchange::NetworkRequest>(&message)) {
+            (void)exchange->Publish(board_->Answer(*asked));
+          } else if (const auto* edit = std::get_if<exchange::NetworkEdit>(&message)) {
+            (void)exchange->Publish(board_->Change(*edit, NowUnixMs()));
+          }
+        }
+      }
+    });
+  }
+  struct Replied {
+    int status = 0;
+    json body{};
+    [[nodiscard]] std::string error() const { return body.value("error", ""); }
+  };
+  static Replied Read(const httplib::Result& got) {
+    return got ? Replied{got->status, json::parse(got->body, nullptr, false)} : Replied{};
+  }
+  [[nodiscard]] httplib::Client Client() const {
+    httplib::Client client("localhost", web_->port());
+    ExpectAsDescribed(client);
+    client.set_read_timeout(60);
+    return client;
+  }
+  [[nodiscard]] Replied List() const { return Read(Client().Get("/api/schedules")); }
+  [[nodiscard]] Replied Add(const std::string& words) const {
+    return Read(Client().Post("/api/schedules", json{{"words", words}}.dump(), "application/json"));
+  }
+  [[nodiscard]] Replied Tell(const std::string& name, const std::string& order) const {
+    return Read(Client().Post("/api/schedules/" + name + "/" + order, "{}", "application/json"));
+  }
+  [[nodiscard]] Replied Remove(const std::string& name) const {
+    return Read(Client().Delete("/api/schedules/" + name));
+  }
+
+  test::TempDir folder_;
+  std::unique_ptr<store::MissionStore> store_;
+  std::unique_ptr<server::ScheduleBoard> board_;
+  exchange::InProcessBus bus_;
+  std::jthread server_;
+  Desk desk_{AgentId("desk-p7"), bus_.Open(ConsoleTopics()),
+             Desk::Options{.reply_within = milliseconds(20'000)}};
+  Atlas atlas_{[this]() -> Result<fleet::OperatorPeer> {
+    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(fleet::ExporterTopics())};
+  }};
+  std::unique_ptr<Web> web_ = Web::Open(desk_, atlas_, nullptr, "localhost", 0, {}).value();
+};
+
+TEST_F(SchedulesApiTest, AreAddedListedPausedResumedAndRemoved) {
+  Serve();
+  EXPECT_EQ(List().body["schedules"], json::array());
+  const std::string words =
+      "round to robot1,cart-* at 08:30 on mon-fri zone Europe/Berlin battery 40 if-arrived do "
+      "follow hall";
+  const Replied added = Add(words);
+  ASSERT_EQ(added.status, 200) << added.body;
+  const json listed = List().body["schedules"];
+  ASSERT_EQ(listed.size(), 1U);
+  EXPECT_EQ(listed, added.body["schedules"]);
+  const json& round = listed[0];
+  EXPECT_EQ(round["name"], "round");
+  EXPECT_EQ(round["server"], "barn");
+  EXPECT_EQ(round["robots"], json({"robot1", "cart-*"}));
+  EXPECT_EQ(round["when"], "at 08:30 on mon-fri zone Europe/Berlin");
+  EXPECT_EQ(round["battery_percent"], 40);
+  EXPECT_EQ(round["if_arrived"], true);
+  EXPECT_EQ(round["by"], "desk");
+  EXPECT_EQ(round["paused_by"], nullptr);
+  EXPECT_THAT(round["next"]["text"].get<std::string>(), HasSubstr(" 08:30 CE"));
+  EXPECT_EQ(round["last"], nullptr);
+  EXPECT_EQ(round["words"], words);
+  const Replied paused = Tell("round", "pause");
+  ASSERT_EQ(paused.status, 200) << paused.body;
+  EXPECT_EQ(paused.body["schedules"][0]["paused_by"], "desk");
+  EXPECT_EQ(paused.body["schedules"][0]["next"], nullptr);
+  EXPECT_EQ(Tell("round", "resume").body["schedules"][0]["paused_by"], nullptr);
+  EXPECT_EQ(Remove("round").status, 200);
+  EXPECT_EQ(List().body["schedules"], json::array());
+}
+
+TEST_F(SchedulesApiTest, WhatCannotBeIsRefusedInWords) {
+  Serve();
+  const Replied wrong = Add("round to robot1 at 25:00 zone UTC do follow hall");
+  EXPECT_EQ(wrong.status, 400);
+  EXPECT_THAT(wrong.error(), HasSubstr("'25:00'"));
+  EXPECT_EQ(Read(Client().Post("/api/schedules", "{}", "application/json")).status, 400);
+  ASSERT_EQ(Add("round to robot1 at 08:30 zone UTC do follow hall").status, 200);
+  const Replied taken = Add("round to robot1 at 09:30 zone UTC do follow hall");
+  EXPECT_EQ(taken.status, 409);
+  EXPECT_THAT(taken.error(), HasSubstr("there is a schedule round already"));
+  const Replied none = Tell("other", "pause");
+  EXPECT_EQ(none.status, 409);
+  EXPECT_THAT(none.error(), HasSubstr("no schedule is called 'other': there are round"));
+  EXPECT_EQ(Remove("other").status, 409);
+  const std::string more = " wait 1";
+  std::string words = "long to robot1 at 08:30 zone UTC do follow hall";
+  while (words.size() + more.size() <= exchange::kMaxLineBytes) words += more;
+  EXPECT_THAT(Add(words).error(), HasSubstr("too long by"));
+}
+
+}  // namespace
+}  // namespace trailcast::console
