@@ -149,10 +149,10 @@ class Server {
   std::vector<exchange::Message> replies_;  // to requests that the keeper does not answer
   FleetNews fleet_;
   FollowerRegistry followers_;
-  std::unique_ptr<MissionRegistry> missions_;  // null if it keeps none
+  std::unique_ptr<MissionRegistry> missions_;    // null if it keeps none
   std::unique_ptr<ScheduleRegistry> schedules_;  // in the missions' store
-  std::unique_ptr<NetworkRegistry> network_;   // null if it keeps none
-  std::unique_ptr<JunctionFinder> junctions_;  // for that
+  std::unique_ptr<NetworkRegistry> network_;     // null if it keeps none
+  std::unique_ptr<JunctionFinder> junctions_;    // for that
   bool takes_sure_junctions_ = false;
   RefreshWatch refreshes_;
   std::uint64_t refresh_request_;                        // of the server's own next edit

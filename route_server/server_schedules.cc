@@ -11,13 +11,14 @@ namespace trailcast::server {
 using std::chrono::steady_clock;
 
 Result<void> Server::OpenSchedules() {
-  ScheduleBoard::Site site;
+  ScheduleRegistry::Site site;
   site.take = [this](std::span<const mission::Mission> missions, steady_clock::time_point now,
                      std::int64_t now_unix_ms) { missions_->Take(missions, now, now_unix_ms); };
   site.closed = [this](const std::string& orders) { return ClosedIn(orders); };
-  auto board = ScheduleBoard::Open(presence_.status().agent, missions_->store(), std::move(site));
-  if (!board) return tl::unexpected(board.error());
-  schedules_ = std::move(*board);
+  auto registry =
+      ScheduleRegistry::Open(presence_.status().agent, missions_->store(), std::move(site));
+  if (!registry) return tl::unexpected(registry.error());
+  schedules_ = std::move(*registry);
   return {};
 }
 
@@ -57,9 +58,9 @@ std::string Server::ClosedIn(const std::string& orders) {
   for (std::size_t i = 0; i < tasks->size(); ++i) {
     if ((*tasks)[i].kind != mission::Task::Kind::kFollow) continue;
     // A robot refuses a route that there is not, and says so.
-    const auto stretch = network_->StretchOf(*tasks, i);
-    if (!stretch) continue;
-    const auto closed = network_->FirstClosed(*stretch);
+    const auto section = network_->SectionOf(*tasks, i);
+    if (!section) continue;
+    const auto closed = network_->FirstClosed(*section);
     if (!closed) return "whether it is closed is not known: " + closed.error().message;
     if (*closed) return network_->Called(**closed) + " is closed";
   }

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "route_server/fleet/schedule_board.h"
+#include "route_server/fleet/schedule_registry.h"
 #include "services/base/unix_time.h"
 #include "services/console/web.h"
 #include "services/exchange/bounds.h"
@@ -26,9 +26,9 @@ class SchedulesApiTest : public testing::Test {
   void Serve() {
     store_ = store::MissionStore::Open(folder_ / "missions").value();
     board_ =
-        server::ScheduleBoard::Open(AgentId("barn"), *store_,
-                                    {.take = [](const auto&, auto, auto) {},
-                                     .closed = [](const std::string&) { return std::string(); }})
+        server::ScheduleRegistry::Open(AgentId("barn"), *store_,
+                                       {.take = [](const auto&, auto, auto) {},
+                                        .closed = [](const std::string&) { return std::string(); }})
             .value();
     server_ = std::jthread([this](const std::stop_token& stop) {
       const auto exchange = bus_.Open(exchange::ServerTopics());
@@ -70,7 +70,7 @@ class SchedulesApiTest : public testing::Test {
 
   test::TempDir folder_;
   std::unique_ptr<store::MissionStore> store_;
-  std::unique_ptr<server::ScheduleBoard> board_;
+  std::unique_ptr<server::ScheduleRegistry> board_;
   exchange::InProcessBus bus_;
   std::jthread server_;
   Desk desk_{AgentId("desk-p7"), bus_.Open(ConsoleTopics()),

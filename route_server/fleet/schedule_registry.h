@@ -26,7 +26,7 @@ namespace trailcast::server {
 // A mission is named after its schedule and the time at which it is due. A server that was killed
 // between sending it and noting so sends it again, and the robot does it once. However a clock
 // jumps, a schedule sends each robot at most one mission for the time that has passed.
-class ScheduleBoard {
+class ScheduleRegistry {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::size_t kMostSchedules = 200;
@@ -51,9 +51,9 @@ class ScheduleBoard {
   };
 
   // Loads the schedules. `store` must outlive this.
-  [[nodiscard]] static Result<std::unique_ptr<ScheduleBoard>> Open(AgentId server,
-                                                                   store::MissionStore& store,
-                                                                   Site site);
+  [[nodiscard]] static Result<std::unique_ptr<ScheduleRegistry>> Open(AgentId server,
+                                                                      store::MissionStore& store,
+                                                                      Site site);
 
   // Makes a change, which is on the disk when this returns. A repeated request is answered again,
   // but carried out once.
@@ -81,7 +81,7 @@ class ScheduleBoard {
     bool perhaps = false;
   };
 
-  ScheduleBoard(AgentId server, store::MissionStore& store, Site site)
+  ScheduleRegistry(AgentId server, store::MissionStore& store, Site site)
       : server_(std::move(server)), store_(store), site_(std::move(site)) {}
 
   [[nodiscard]] Result<std::vector<std::string>> Carry(const std::string& words,

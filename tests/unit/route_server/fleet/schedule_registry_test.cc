@@ -1,9 +1,9 @@
-#include "route_server/fleet/schedule_board.h"
+#include "route_server/fleet/schedule_registry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "route_server/fleet/mission_board.h"
+#include "route_server/fleet/mission_registry.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::server {
@@ -25,18 +25,18 @@ using testing::SizeIs;
 constexpr std::int64_t kMonday_7h_ms = 1'796'022'000'000;
 
 // A server's two boards. Their clocks are stepped.
-class ScheduleBoardTest : public testing::Test {
+class ScheduleRegistryTest : public testing::Test {
  protected:
   void SetUp() override { Restart(); }
   void Restart() {
-    board_.reset();
+    registry_.reset();
     missions_.reset();
     auto store = store::MissionStore::Open(folder_ / "missions");
     ASSERT_TRUE(store) << store.error().message;
-    auto missions = MissionBoard::Open(AgentId("server"), std::move(*store));
+    auto missions = MissionRegistry::Open(AgentId("server"), std::move(*store));
     ASSERT_TRUE(missions) << missions.error().message;
     missions_ = std::move(*missions);
-    ScheduleBoard::Site site;
+    ScheduleRegistry::Site site;
     site.take = [this](const auto& sent, auto now, auto now_unix_ms) {
       for (const mission::Mission& mission : sent) {
         taken_.push_back(mission.agent.value() + " " + mission.id);
@@ -44,12 +44,12 @@ class ScheduleBoardTest : public testing::Test {
       if (takes_) missions_->Take(sent, now, now_unix_ms);
     };
     site.closed = [this](const std::string&) { return closed_; };
-    auto board = ScheduleBoard::Open(AgentId("server"), missions_->store(), std::move(site));
-    ASSERT_TRUE(board) << board.error().message;
-    board_ = std::move(*board);
+    auto registry = ScheduleRegistry::Open(AgentId("server"), missions_->store(), std::move(site));
+    ASSERT_TRUE(registry) << registry.error().message;
+    registry_ = std::move(*registry);
   }
   exchange::NetworkReply Tell(const std::string& words) {
-    return board_->Change(
+    return registry_->Change(
         {.client = AgentId("desk-p7"), .request = ++requests_, .words = "schedule server " + words},
         unix_ms_);
   }
@@ -57,13 +57,14 @@ class ScheduleBoardTest : public testing::Test {
     const auto reply = Tell("add " + words);
     ASSERT_EQ(reply.error, "");
   }
-  // Steps both clocks, and lets the board look at them each second, or each minute of a long time.
+  // Steps both clocks, and lets the registry look at them each second, or each minute of a long
+  // time.
   void Pass(milliseconds time) {
     const milliseconds step = time > minutes(10) ? milliseconds(minutes(1)) : seconds(1);
     for (milliseconds passed{0}; passed < time; passed += step) {
       now_ += step;
       unix_ms_ += step.count();
-      board_->Tick(now_, unix_ms_);
+      registry_->Tick(now_, unix_ms_);
     }
   }
   void ClockJumps(milliseconds by) { unix_ms_ += by.count(); }
@@ -74,7 +75,7 @@ class ScheduleBoardTest : public testing::Test {
     status.role = exchange::AgentRole::kFollower;
     status.mode = exchange::AgentMode::kWaiting;
     status.battery_percent = battery_percent;
-    board_->Hear(status);
+    registry_->Hear(status);
   }
   void Ends(const std::string& robot, const std::string& id, State state) {
     missions_->Handle(
@@ -83,7 +84,7 @@ class ScheduleBoardTest : public testing::Test {
   }
   Listed Only() {
     const auto all =
-        schedule::ParseLines(board_->Answer({.client = AgentId("desk"), .request = 1}).lines);
+        schedule::ParseLines(registry_->Answer({.client = AgentId("desk"), .request = 1}).lines);
     EXPECT_THAT(all, SizeIs(1));
     return all.empty() ? Listed{} : all.front();
   }
@@ -101,13 +102,13 @@ class ScheduleBoardTest : public testing::Test {
   std::string closed_;
   bool takes_ = true;
   std::vector<std::string> taken_;
-  std::unique_ptr<MissionBoard> missions_;
-  std::unique_ptr<ScheduleBoard> board_;
+  std::unique_ptr<MissionRegistry> missions_;
+  std::unique_ptr<ScheduleRegistry> registry_;
   std::uint64_t requests_ = 0;
   std::uint32_t changes_ = 0;
 };
 
-TEST_F(ScheduleBoardTest, SendsAMissionWhenItIsDueAndOnce) {
+TEST_F(ScheduleRegistryTest, SendsAMissionWhenItIsDueAndOnce) {
   Add("round to robot1 at 07:01 zone UTC valid 60 goes-on do follow hall");
   Pass(seconds(59));
   EXPECT_THAT(Taken(), IsEmpty());
@@ -129,7 +130,7 @@ TEST_F(ScheduleBoardTest, SendsAMissionWhenItIsDueAndOnce) {
   EXPECT_THAT(Taken(), ElementsAre("robot1 round-20261201T0701Z"));
 }
 
-TEST_F(ScheduleBoardTest, GoesOnAfterARestart) {
+TEST_F(ScheduleRegistryTest, GoesOnAfterARestart) {
   Add("round to robot1 every 10 zone UTC do follow hall");
   Pass(minutes(10));
   EXPECT_THAT(Taken(), SizeIs(1));
@@ -143,7 +144,7 @@ TEST_F(ScheduleBoardTest, GoesOnAfterARestart) {
 }
 
 // A server is killed between storing a mission and noting that it is sent.
-TEST_F(ScheduleBoardTest, SendsTheSameMissionAgainIfItMayNotHaveBeenSent) {
+TEST_F(ScheduleRegistryTest, SendsTheSameMissionAgainIfItMayNotHaveBeenSent) {
   Add("round to robot1 at 07:01 zone UTC do follow hall");
   auto before = missions_->store().Schedules();
   ASSERT_TRUE(before);
@@ -158,7 +159,7 @@ TEST_F(ScheduleBoardTest, SendsTheSameMissionAgainIfItMayNotHaveBeenSent) {
   EXPECT_THAT(all->missions, SizeIs(1));
 }
 
-TEST_F(ScheduleBoardTest, LeavesOutWhatWasMissed) {
+TEST_F(ScheduleRegistryTest, LeavesOutWhatWasMissed) {
   Add("round to robot1 every 10 zone UTC do follow hall");
   ClockJumps(hours(24) + minutes(5));
   Restart();
@@ -169,7 +170,7 @@ TEST_F(ScheduleBoardTest, LeavesOutWhatWasMissed) {
   EXPECT_THAT(Taken(), ElementsAre("robot1 round-20261201T0710Z"));
 }
 
-TEST_F(ScheduleBoardTest, SendsOneForAllThatWereMissedIfToldSo) {
+TEST_F(ScheduleRegistryTest, SendsOneForAllThatWereMissedIfToldSo) {
   Add("round to robot1 every 10 zone UTC missed once do follow hall");
   ClockJumps(hours(24) + minutes(5));
   Restart();
@@ -179,7 +180,7 @@ TEST_F(ScheduleBoardTest, SendsOneForAllThatWereMissedIfToldSo) {
   EXPECT_THAT(Taken(), IsEmpty());
 }
 
-TEST_F(ScheduleBoardTest, ClockThatJumpsByADaySendsNoDaysWorth) {
+TEST_F(ScheduleRegistryTest, ClockThatJumpsByADaySendsNoDaysWorth) {
   Add("round to robot1 every 1 zone UTC missed once do follow hall");
   Pass(minutes(1));
   EXPECT_THAT(Taken(), SizeIs(1));
@@ -189,7 +190,7 @@ TEST_F(ScheduleBoardTest, ClockThatJumpsByADaySendsNoDaysWorth) {
   EXPECT_THAT(Taken(), SizeIs(1));
 }
 
-TEST_F(ScheduleBoardTest, ClockThatWasAYearAheadDoesNotSilenceIt) {
+TEST_F(ScheduleRegistryTest, ClockThatWasAYearAheadDoesNotSilenceIt) {
   ClockJumps(hours(24 * 365));
   Add("round to robot1 every 1 zone UTC do follow hall");
   Pass(minutes(2));
@@ -200,7 +201,7 @@ TEST_F(ScheduleBoardTest, ClockThatWasAYearAheadDoesNotSilenceIt) {
   EXPECT_THAT(Taken(), SizeIs(1)) << "the first has not ended";
 }
 
-TEST_F(ScheduleBoardTest, SendsNoOtherWhileTheOneBeforeHasNotEnded) {
+TEST_F(ScheduleRegistryTest, SendsNoOtherWhileTheOneBeforeHasNotEnded) {
   Add("round to robot1 every 1 zone UTC do follow hall");
   Pass(minutes(5));
   EXPECT_THAT(Taken(), ElementsAre("robot1 round-20261130T0701Z"));
@@ -210,7 +211,7 @@ TEST_F(ScheduleBoardTest, SendsNoOtherWhileTheOneBeforeHasNotEnded) {
   EXPECT_THAT(Taken(), ElementsAre("robot1 round-20261130T0706Z"));
 }
 
-TEST_F(ScheduleBoardTest, SendsOnlyIfTheLastOneArrivedUntilItIsResumed) {
+TEST_F(ScheduleRegistryTest, SendsOnlyIfTheLastOneArrivedUntilItIsResumed) {
   Add("round to robot1 every 1 zone UTC if-arrived do follow hall");
   Pass(minutes(1));
   Ends("robot1", "round-20261130T0701Z", State::kArrived);
@@ -225,7 +226,7 @@ TEST_F(ScheduleBoardTest, SendsOnlyIfTheLastOneArrivedUntilItIsResumed) {
   EXPECT_THAT(Taken(), ElementsAre("robot1 round-20261130T0705Z"));
 }
 
-TEST_F(ScheduleBoardTest, SendsOnlyRobotsWithBatteryEnough) {
+TEST_F(ScheduleRegistryTest, SendsOnlyRobotsWithBatteryEnough) {
   Add("round to robot1,robot2,robot3 at 07:01 zone UTC battery 40 do follow hall");
   Hear("robot1", 40);
   Hear("robot2", 39);
@@ -237,7 +238,7 @@ TEST_F(ScheduleBoardTest, SendsOnlyRobotsWithBatteryEnough) {
               ElementsAre("robot1 sent", HasSubstr("at 39 %, below 40 %"), HasSubstr("not heard")));
 }
 
-TEST_F(ScheduleBoardTest, SendsNobodyWhileTheRouteIsClosed) {
+TEST_F(ScheduleRegistryTest, SendsNobodyWhileTheRouteIsClosed) {
   Add("round to robot1 every 1 zone UTC unless-closed do follow hall");
   closed_ = "hall 3..7 is closed";
   Pass(minutes(1));
@@ -249,18 +250,18 @@ TEST_F(ScheduleBoardTest, SendsNobodyWhileTheRouteIsClosed) {
   EXPECT_EQ(Only().outcome, "");
 }
 
-TEST_F(ScheduleBoardTest, SendsAllOfAPatternThatAreHeard) {
+TEST_F(ScheduleRegistryTest, SendsAllOfAPatternThatAreHeard) {
   Add("round to cart-* at 07:01 zone UTC do follow hall");
   Hear("cart-1");
   Hear("cart-2");
   Hear("robot1");
-  board_->Hear(exchange::AgentGone{.agent = AgentId("cart-2"), .instance = 0});
+  registry_->Hear(exchange::AgentGone{.agent = AgentId("cart-2"), .instance = 0});
   Hear("cart-3");
   Pass(minutes(1));
   EXPECT_THAT(Taken(), ElementsAre("cart-1 round-20261130T0701Z", "cart-3 round-20261130T0701Z"));
 }
 
-TEST_F(ScheduleBoardTest, ServerThatHasJustStartedWaitsForTheRobotsOfAPattern) {
+TEST_F(ScheduleRegistryTest, ServerThatHasJustStartedWaitsForTheRobotsOfAPattern) {
   Add("round to cart-* at 07:01 zone UTC do follow hall");
   ClockJumps(seconds(59));
   Restart();
@@ -272,14 +273,14 @@ TEST_F(ScheduleBoardTest, ServerThatHasJustStartedWaitsForTheRobotsOfAPattern) {
   EXPECT_THAT(Taken(), SizeIs(2));
 }
 
-TEST_F(ScheduleBoardTest, SaysThatThereWasNobodyToSendTo) {
+TEST_F(ScheduleRegistryTest, SaysThatThereWasNobodyToSendTo) {
   Add("round to cart-* at 07:01 zone UTC do follow hall");
   Pass(minutes(2));
   EXPECT_THAT(Taken(), IsEmpty());
   EXPECT_THAT(Only().outcome, HasSubstr("nobody to send to: no robot 'cart-*' is heard"));
 }
 
-TEST_F(ScheduleBoardTest, SendsAgainWhatCouldNotBeStored) {
+TEST_F(ScheduleRegistryTest, SendsAgainWhatCouldNotBeStored) {
   Add("round to robot1 at 07:01 zone UTC do follow hall");
   takes_ = false;
   Pass(minutes(1) + seconds(5));
@@ -290,7 +291,7 @@ TEST_F(ScheduleBoardTest, SendsAgainWhatCouldNotBeStored) {
   EXPECT_THAT(Outcomes(), ElementsAre("robot1 sent"));
 }
 
-TEST_F(ScheduleBoardTest, PausedSendsNobodyAndMissesNothing) {
+TEST_F(ScheduleRegistryTest, PausedSendsNobodyAndMissesNothing) {
   Add("round to robot1 every 10 zone UTC missed once do follow hall");
   EXPECT_EQ(Tell("pause round").error, "");
   EXPECT_EQ(Only().paused_by, "desk");
@@ -306,39 +307,39 @@ TEST_F(ScheduleBoardTest, PausedSendsNobodyAndMissesNothing) {
   EXPECT_THAT(Taken(), ElementsAre("robot1 round-20261130T0730Z"));
 }
 
-TEST_F(ScheduleBoardTest, RemovedIsGoneAfterARestartToo) {
+TEST_F(ScheduleRegistryTest, RemovedIsGoneAfterARestartToo) {
   Add("round to robot1 every 1 zone UTC do follow hall");
   EXPECT_EQ(Tell("remove round").error, "");
   EXPECT_THAT(Tell("remove round").error, HasSubstr("no schedule is called 'round'"));
   Restart();
   Pass(minutes(2));
   EXPECT_THAT(Taken(), IsEmpty());
-  EXPECT_EQ(board_->size(), 0U);
+  EXPECT_EQ(registry_->size(), 0U);
 }
 
-TEST_F(ScheduleBoardTest, RepeatedChangeIsMadeOnce) {
+TEST_F(ScheduleRegistryTest, RepeatedChangeIsMadeOnce) {
   const exchange::NetworkEdit edit{
       .client = AgentId("desk"), .request = 7, .words = "schedule server remove round"};
   Add("round to robot1 every 1 zone UTC do follow hall");
-  EXPECT_EQ(board_->Change(edit, unix_ms_).error, "");
-  EXPECT_EQ(board_->Change(edit, unix_ms_).error, "");
+  EXPECT_EQ(registry_->Change(edit, unix_ms_).error, "");
+  EXPECT_EQ(registry_->Change(edit, unix_ms_).error, "");
 }
 
-TEST_F(ScheduleBoardTest, RefusesAnotherOfTheSameNameOneThatIsPastAndTooMany) {
+TEST_F(ScheduleRegistryTest, RefusesAnotherOfTheSameNameOneThatIsPastAndTooMany) {
   Add("round to robot1 every 1 zone UTC do follow hall");
   Add("round to robot1 every 1 zone UTC do follow hall");
   EXPECT_THAT(Tell("add round to robot1 every 2 zone UTC do follow hall").error,
               HasSubstr("there is a schedule round already, every 1 zone UTC"));
   EXPECT_THAT(Tell("add past to robot1 once 2026-11-30 07:00 zone UTC do follow hall").error,
               HasSubstr("is past, it is Mon 2026-11-30 07:00 UTC now"));
-  for (std::size_t i = 1; i < ScheduleBoard::kMostSchedules; ++i) {
+  for (std::size_t i = 1; i < ScheduleRegistry::kMostSchedules; ++i) {
     Add("s" + std::to_string(i) + " to robot1 every 1 zone UTC do follow hall");
   }
   EXPECT_THAT(Tell("add more to robot1 every 1 zone UTC do follow hall").error,
               HasSubstr("200 schedules already"));
 }
 
-TEST_F(ScheduleBoardTest, OnceIsSentOnceAndListedUntilItIsRemoved) {
+TEST_F(ScheduleRegistryTest, OnceIsSentOnceAndListedUntilItIsRemoved) {
   Add("audit to robot1 once 2026-11-30 08:30 zone Europe/Berlin do goto office@8");
   Pass(minutes(31));
   EXPECT_THAT(Taken(), ElementsAre("robot1 audit-20261130T0730Z"));

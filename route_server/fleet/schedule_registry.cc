@@ -1,4 +1,4 @@
-#include "route_server/fleet/schedule_board.h"
+#include "route_server/fleet/schedule_registry.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -34,28 +34,29 @@ std::string Became(const mission::Report& report) {
 
 }  // namespace
 
-Result<std::unique_ptr<ScheduleBoard>> ScheduleBoard::Open(AgentId server,
-                                                           store::MissionStore& store, Site site) {
-  std::unique_ptr<ScheduleBoard> board(
-      new ScheduleBoard(std::move(server), store, std::move(site)));
+Result<std::unique_ptr<ScheduleRegistry>> ScheduleRegistry::Open(AgentId server,
+                                                                 store::MissionStore& store,
+                                                                 Site site) {
+  std::unique_ptr<ScheduleRegistry> registry(
+      new ScheduleRegistry(std::move(server), store, std::move(site)));
   auto all = store.Schedules();
   if (!all) return tl::unexpected(all.error());
   for (Kept& kept : *all) {
     auto schedule = schedule::ParseSchedule(kept.words);
     if (!schedule) {
-      board->notes_.push_back(
+      registry->notes_.push_back(
           fmt::format("schedule {} sends nothing: {}", kept.name, schedule.error().message));
       continue;
     }
-    Entry& entry = board->entries_[kept.name];
+    Entry& entry = registry->entries_[kept.name];
     entry.schedule = *std::move(schedule);
     entry.next_unix_ms = NextDue(entry.schedule, kept.looked_unix_ms);
     entry.kept = std::move(kept);
   }
-  return board;
+  return registry;
 }
 
-void ScheduleBoard::Hear(const exchange::Message& message) {
+void ScheduleRegistry::Hear(const exchange::Message& message) {
   if (const auto* gone = std::get_if<exchange::AgentGone>(&message)) heard_.Erase(gone->agent);
   const auto* status = std::get_if<exchange::AgentStatus>(&message);
   if (status == nullptr || status->role != exchange::AgentRole::kFollower) return;
@@ -66,8 +67,8 @@ void ScheduleBoard::Hear(const exchange::Message& message) {
   }
 }
 
-exchange::NetworkReply ScheduleBoard::Change(const exchange::NetworkEdit& edit,
-                                             std::int64_t now_unix_ms) {
+exchange::NetworkReply ScheduleRegistry::Change(const exchange::NetworkEdit& edit,
+                                                std::int64_t now_unix_ms) {
   auto& answered = answered_.Touch({edit.client, edit.request});
   if (answered) return *answered;
   exchange::NetworkReply reply{.server = server_, .client = edit.client, .request = edit.request};
@@ -81,8 +82,8 @@ exchange::NetworkReply ScheduleBoard::Change(const exchange::NetworkEdit& edit,
   return reply;
 }
 
-Result<Lines> ScheduleBoard::Carry(const std::string& words, const AgentId& client,
-                                   std::int64_t now_unix_ms) {
+Result<Lines> ScheduleRegistry::Carry(const std::string& words, const AgentId& client,
+                                      std::int64_t now_unix_ms) {
   auto edit = schedule::ParseScheduleEdit(words);
   if (!edit) return tl::unexpected(edit.error());
   const std::string by = WithoutProcess(client.value());
@@ -111,8 +112,8 @@ Result<Lines> ScheduleBoard::Carry(const std::string& words, const AgentId& clie
   return now_is == entries_.end() ? Lines{} : LinesOf(ListedAs(now_is->second));
 }
 
-Result<void> ScheduleBoard::Add(schedule::Schedule schedule, const std::string& by,
-                                std::int64_t now_unix_ms) {
+Result<void> ScheduleRegistry::Add(schedule::Schedule schedule, const std::string& by,
+                                   std::int64_t now_unix_ms) {
   if (const auto known = entries_.find(schedule.name); known != entries_.end()) {
     if (known->second.schedule == schedule) return {};
     return Fail(ErrorCode::kConflict,
@@ -136,7 +137,7 @@ Result<void> ScheduleBoard::Add(schedule::Schedule schedule, const std::string& 
   return {};
 }
 
-Result<void> ScheduleBoard::Pause(Entry& entry, const std::string& by) {
+Result<void> ScheduleRegistry::Pause(Entry& entry, const std::string& by) {
   if (!entry.kept.paused_by.empty()) return {};
   Kept kept = entry.kept;
   kept.paused_by = by;
@@ -145,7 +146,7 @@ Result<void> ScheduleBoard::Pause(Entry& entry, const std::string& by) {
 
 // Times that have passed meanwhile are not missed, and missions that did not arrive no longer keep
 // their robots from being sent.
-Result<void> ScheduleBoard::Resume(Entry& entry, std::int64_t now_unix_ms) {
+Result<void> ScheduleRegistry::Resume(Entry& entry, std::int64_t now_unix_ms) {
   Kept kept = entry.kept;
   if (!kept.paused_by.empty()) kept.looked_unix_ms = now_unix_ms;
   kept.paused_by.clear();
@@ -156,7 +157,7 @@ Result<void> ScheduleBoard::Resume(Entry& entry, std::int64_t now_unix_ms) {
   return Keep(entry, std::move(kept));
 }
 
-Result<void> ScheduleBoard::Keep(Entry& entry, Kept kept) {
+Result<void> ScheduleRegistry::Keep(Entry& entry, Kept kept) {
   if (auto stored = store_.Put(kept); !stored) return stored;
   entry.kept = std::move(kept);
   entry.next_unix_ms = NextDue(entry.schedule, entry.kept.looked_unix_ms);
@@ -164,7 +165,7 @@ Result<void> ScheduleBoard::Keep(Entry& entry, Kept kept) {
   return {};
 }
 
-exchange::NetworkReply ScheduleBoard::Answer(const exchange::NetworkRequest& request) {
+exchange::NetworkReply ScheduleRegistry::Answer(const exchange::NetworkRequest& request) {
   exchange::NetworkReply reply{
       .server = server_, .client = request.client, .request = request.request};
   Lines all;
@@ -180,7 +181,7 @@ exchange::NetworkReply ScheduleBoard::Answer(const exchange::NetworkRequest& req
   return reply;
 }
 
-schedule::Listed ScheduleBoard::ListedAs(const Entry& entry) {
+schedule::Listed ScheduleRegistry::ListedAs(const Entry& entry) {
   const Kept& kept = entry.kept;
   schedule::Listed listed{.schedule = entry.schedule,
                           .by = kept.by,
@@ -199,22 +200,22 @@ schedule::Listed ScheduleBoard::ListedAs(const Entry& entry) {
   return listed;
 }
 
-std::optional<mission::Report> ScheduleBoard::LastReport(const AgentId& agent,
-                                                         const std::string& mission) {
+std::optional<mission::Report> ScheduleRegistry::LastReport(const AgentId& agent,
+                                                            const std::string& mission) {
   if (mission.empty()) return std::nullopt;
   const auto found = store_.Get(agent, mission);
   if (!found || !*found) return std::nullopt;
   return (*found)->last;
 }
 
-void ScheduleBoard::Tick(Time now, std::int64_t now_unix_ms) {
+void ScheduleRegistry::Tick(Time now, std::int64_t now_unix_ms) {
   if (!began_) began_ = now;
   if (look_at_ && now < *look_at_) return;
   look_at_ = now + kLookAtAllEvery;
   for (auto& [name, entry] : entries_) Look(entry, now, now_unix_ms);
 }
 
-void ScheduleBoard::Look(Entry& entry, Time now, std::int64_t now_unix_ms) {
+void ScheduleRegistry::Look(Entry& entry, Time now, std::int64_t now_unix_ms) {
   Kept& kept = entry.kept;
   if (!kept.paused_by.empty()) return;
   if (kept.looked_unix_ms > now_unix_ms + kAhead.count()) {
@@ -238,7 +239,7 @@ void ScheduleBoard::Look(Entry& entry, Time now, std::int64_t now_unix_ms) {
   Fire(entry, *due, now, now_unix_ms);
 }
 
-std::set<AgentId> ScheduleBoard::RobotsOf(const schedule::Schedule& schedule) const {
+std::set<AgentId> ScheduleRegistry::RobotsOf(const schedule::Schedule& schedule) const {
   std::set<AgentId> robots;
   for (const std::string& word : schedule.robots) {
     if (!schedule::IsPattern(word)) robots.emplace(word);
@@ -253,8 +254,8 @@ std::set<AgentId> ScheduleBoard::RobotsOf(const schedule::Schedule& schedule) co
   return robots;
 }
 
-ScheduleBoard::Verdict ScheduleBoard::JudgeRobot(const Entry& entry, const AgentId& agent,
-                                                 const std::string& mission) {
+ScheduleRegistry::Verdict ScheduleRegistry::JudgeRobot(const Entry& entry, const AgentId& agent,
+                                                       const std::string& mission) {
   const Kept::Sent* before = SentTo(entry.kept, agent);
   if (before != nullptr && before->mission != mission) {
     const auto last = LastReport(agent, before->mission);
@@ -277,8 +278,8 @@ ScheduleBoard::Verdict ScheduleBoard::JudgeRobot(const Entry& entry, const Agent
                              *entry.schedule.battery_percent)};
 }
 
-std::vector<ScheduleBoard::Verdict> ScheduleBoard::Judge(const Entry& entry,
-                                                         const std::string& mission) {
+std::vector<ScheduleRegistry::Verdict> ScheduleRegistry::Judge(const Entry& entry,
+                                                               const std::string& mission) {
   std::vector<Verdict> verdicts;
   for (const AgentId& agent : RobotsOf(entry.schedule)) {
     verdicts.push_back(JudgeRobot(entry, agent, mission));
@@ -286,13 +287,13 @@ std::vector<ScheduleBoard::Verdict> ScheduleBoard::Judge(const Entry& entry,
   return verdicts;
 }
 
-bool ScheduleBoard::MayMissSome(const schedule::Schedule& schedule, Time now) const {
+bool ScheduleRegistry::MayMissSome(const schedule::Schedule& schedule, Time now) const {
   return now - *began_ < kPatience &&
          std::any_of(schedule.robots.begin(), schedule.robots.end(), schedule::IsPattern);
 }
 
-void ScheduleBoard::Fire(Entry& entry, std::int64_t due_unix_ms, Time now,
-                         std::int64_t now_unix_ms) {
+void ScheduleRegistry::Fire(Entry& entry, std::int64_t due_unix_ms, Time now,
+                            std::int64_t now_unix_ms) {
   const schedule::Schedule& schedule = entry.schedule;
   if (!entry.waits_since) entry.waits_since = now;
   const bool may_wait = now - *entry.waits_since < kPatience;
@@ -342,8 +343,8 @@ void ScheduleBoard::Fire(Entry& entry, std::int64_t due_unix_ms, Time now,
 
 // An outcome that cannot be stored holds here all the same. After a restart the time may be seen to
 // again, which sends the same missions.
-void ScheduleBoard::Conclude(Entry& entry, std::int64_t due_unix_ms, std::string outcome,
-                             std::vector<Kept::Sent> sent) {
+void ScheduleRegistry::Conclude(Entry& entry, std::int64_t due_unix_ms, std::string outcome,
+                                std::vector<Kept::Sent> sent) {
   Kept kept = entry.kept;
   kept.looked_unix_ms = due_unix_ms;
   kept.last_unix_ms = due_unix_ms;
