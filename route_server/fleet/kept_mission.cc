@@ -19,7 +19,7 @@ std::string OrdersWithoutWay(std::string_view goal) {
 
 bool SendsHome(const mission::Record& record) {
   return record.mission.id.starts_with(kHomePrefix) &&
-         record.mission.orders == OrdersWithoutWay(mission::kHome);
+         record.mission.orders == OrdersWithoutWay(mission::kHomeWord);
 }
 
 std::uint32_t EndedStates() {

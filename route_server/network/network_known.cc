@@ -62,7 +62,7 @@ Result<Place> NetworkRegistry::Resolve(const Goal& goal) const {
 }
 
 Result<std::vector<Place>> NetworkRegistry::PlacesOf(const Goal& goal) const {
-  if (goal.name != mission::kHome || named_.contains(goal.name)) {
+  if (goal.name != mission::kHomeWord || named_.contains(goal.name)) {
     auto place = Resolve(goal);
     if (!place) return tl::unexpected(place.error());
     return std::vector{*std::move(place)};

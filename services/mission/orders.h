@@ -50,7 +50,7 @@ struct Task {
 
 // As a robot's destination this means the nearest place that is a home, unless a place is called
 // so.
-inline constexpr std::string_view kHome = "home";
+inline constexpr std::string_view kHomeWord = "home";
 
 // This is the destination of a robot, without the path to it.
 struct Going {
