@@ -8,8 +8,13 @@
 namespace trailcast::teach {
 
 struct KeyViewRecorderOptions {
-  // So many features of a view are kept.
-  std::size_t features = 40;
+  // So many features of a view are kept. With twice as many as tell when the next view is due, a
+  // follower recognises a place from another side, or through another lens, that it does not
+  // recognise with half.
+  std::size_t features = 80;
+  // So many of a view tell when the next one is due, so that keeping more of each does not move
+  // them apart.
+  std::size_t compared = 40;
   // A view with fewer features than this is none: it is too dark or too bland.
   std::size_t fewest = 8;
   // The next view is kept when a smaller share of the last one's features is recognised.
@@ -19,8 +24,10 @@ struct KeyViewRecorderOptions {
   std::size_t middle_features = 0;
 
   // Returns options for routes with odometry, whose followers know their place roughly. Its views
-  // take half of the bytes.
-  [[nodiscard]] static KeyViewRecorderOptions WithOdometry() { return {32, 8, 0.4, 13}; }
+  // take a quarter of the bytes.
+  [[nodiscard]] static KeyViewRecorderOptions WithOdometry() {
+    return {.features = 32, .compared = 32, .recognised_share = 0.4, .middle_features = 13};
+  }
 };
 
 // This is why followers may not recognise their place by the present frame.
@@ -57,7 +64,7 @@ class KeyViewRecorder {
   KeyViewRecorderOptions options_;
   int width_px_;
   route::View kept_;
-  view::ViewTable table_;  // the table of `kept_`
+  view::ViewTable table_;  // of the last key view, as it is compared
   double recognised_ = 0.0;
   int since_kept_ = 0;  // in frames
   ViewWeakness weakness_ = ViewWeakness::kNone;

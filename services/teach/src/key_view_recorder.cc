@@ -27,7 +27,8 @@ bool KeyViewRecorder::Keep(const route::View& view) {
   recognised_ = 0.0;
   if (view.size() < options_.fewest) return false;
   kept_ = options_.middle_features > 0 ? Choose(view) : view::Spread(view, options_.features);
-  table_ = view::Tabulate(kept_, width_px_);
+  const bool fewer = options_.compared < options_.features;
+  table_ = view::Tabulate(fewer ? view::Spread(view, options_.compared) : kept_, width_px_);
   recognised_ = 1.0;
   since_kept_ = 0;
   return true;
@@ -39,7 +40,7 @@ bool KeyViewRecorder::Add(const route::View& view) {
   if (kept_.empty()) return Keep(view);
   ++since_kept_;
   const int agreed = view::Compare(table_, view::Tabulate(view, width_px_)).agreed();
-  const double share = agreed / static_cast<double>(kept_.size());
+  const double share = agreed / static_cast<double>(std::min(kept_.size(), options_.compared));
   if (share >= options_.recognised_share) {
     recognised_ = share;
     return false;

@@ -35,6 +35,21 @@ TEST(KeyViewRecorder, KeepsTheFirstViewAndThenOneWhenHalfOfItIsGone) {
   }
 }
 
+TEST(KeyViewRecorder, KeepingMoreOfEachViewDoesNotMoveThemApart) {
+  KeyViewRecorder more(320);
+  KeyViewRecorder fewer(320, {.features = KeyViewRecorderOptions{}.compared});
+  int views = 0;
+  for (int at = 0; at < 300; ++at) {
+    const bool kept = more.Add(Window(at, 120));
+    EXPECT_EQ(fewer.Add(Window(at, 120)), kept) << at;
+    if (!kept) continue;
+    ++views;
+    EXPECT_EQ(more.kept().size(), KeyViewRecorderOptions{}.features);
+    EXPECT_EQ(fewer.kept().size(), KeyViewRecorderOptions{}.compared);
+  }
+  EXPECT_GE(views, 4);
+}
+
 TEST(KeyViewRecorder, KeepsFewFeatures) {
   KeyViewRecorder recorder(320);
   ASSERT_TRUE(recorder.Add(Window(0, 300)));

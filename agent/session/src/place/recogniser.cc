@@ -5,12 +5,18 @@
 #include <utility>
 
 namespace trailcast::agent {
+namespace {
+
+constexpr double kOfModel = 40.0;  // features of a key view in the belief's model
+
+}  // namespace
 
 std::vector<belief::ComparedView> Look::Compared() const {
   std::vector<belief::ComparedView> compared;
   compared.reserve(views.size());
   for (const Recognised& each : views) {
-    compared.push_back({each.view, each.comparison.agreed(), std::log(each.comparison.scale)});
+    const auto agreed = static_cast<int>(std::lround(each.worth * each.comparison.agreed()));
+    compared.push_back({each.view, agreed, std::log(each.comparison.scale)});
   }
   return compared;
 }
@@ -56,7 +62,9 @@ Look Recogniser::Compare(view::ViewTable seen, int width_px,
   look.seen = std::move(seen);
   look.views.reserve(views.size());
   for (const std::size_t key : views) {
-    look.views.push_back({key, view::Compare(keys_[key], look.seen)});
+    const double features = std::max(kOfModel, static_cast<double>(keys_[key].size()));
+    look.views.push_back(
+        {key, view::Compare(keys_[key], look.seen), std::sqrt(kOfModel / features)});
   }
   return look;
 }

@@ -19,6 +19,10 @@ struct Look {
   struct Recognised {
     std::size_t view = 0;  // position among the route's key views
     view::Comparison comparison;
+    // What one of its features is worth as evidence. Features of one view are no independent
+    // witnesses: beyond so many as the belief's model was made with, their evidence grows with the
+    // square root of their number.
+    double worth = 1.0;
   };
   view::ViewTable seen;  // the frame's own features
   std::vector<Recognised> views;
