@@ -8,6 +8,7 @@ namespace trailcast::agent {
 namespace {
 
 constexpr double kOfModel = 40.0;  // features of a key view in the belief's model
+constexpr double kByChance = 0.7;
 
 }  // namespace
 
@@ -63,8 +64,8 @@ Look Recogniser::Compare(view::ViewTable seen, int width_px,
   look.views.reserve(views.size());
   for (const std::size_t key : views) {
     const double features = std::max(kOfModel, static_cast<double>(keys_[key].size()));
-    look.views.push_back(
-        {key, view::Compare(keys_[key], look.seen), std::sqrt(kOfModel / features)});
+    const double worth = std::pow(kOfModel / features, kByChance);
+    look.views.push_back({key, view::Compare(keys_[key], look.seen), worth});
   }
   return look;
 }

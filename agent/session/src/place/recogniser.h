@@ -19,9 +19,8 @@ struct Look {
   struct Recognised {
     std::size_t view = 0;  // position among the route's key views
     view::Comparison comparison;
-    // What one of its features is worth as evidence. Features of one view are no independent
-    // witnesses: beyond so many as the belief's model was made with, their evidence grows with the
-    // square root of their number.
+    // What one of its features is worth as evidence. Of more features more agree by chance: eight
+    // of eighty are as unlikely as the five of forty with which the belief begins to count.
     double worth = 1.0;
   };
   view::ViewTable seen;  // the frame's own features
