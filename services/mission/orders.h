@@ -23,8 +23,6 @@ namespace trailcast::mission {
 //                            an order begins with
 //   turn DEGREES             on the spot, to the left; below 0 to the right
 //   wait SECONDS
-//   locate ROUTE[@REVISION] METRES  an operator says that the robot stands there along the route;
-//                            it looks whether that is so, and does not move
 // An example is "follow hall 3..10 speed 0.5 wait 20 teach yard wet gravel". For a robot that is
 // sent to a place, the orders are the path there, made of 'follow' and 'turn' alone:
 //   goto PLACE [way N [queued|admitted]] [TURN] FOLLOW ... [because WORDS ...]
@@ -35,10 +33,10 @@ namespace trailcast::mission {
 //   wait lane                until a server has sent the mission without it ('admitted'); until
 //                            then, 'queued' says which robots it waits for
 struct Task {
-  enum class Kind : std::uint8_t { kFollow, kWait, kTeach, kTurn, kLocate, kWaitWay, kWaitLane };
+  enum class Kind : std::uint8_t { kFollow, kWait, kTeach, kTurn, kWaitWay, kWaitLane };
   Kind kind = Kind::kFollow;
   route::RouteRef route{};
-  double from_m = 0.0;     // where it begins, or is said to stand; 0 is the route's beginning
+  double from_m = 0.0;     // where it begins; 0 is the route's beginning
   double to_m = 0.0;       // where it ends; 0 is the route's end
   bool backwards = false;  // in reverse gear, with the route's ends exchanged
   std::uint32_t laps = 1;

@@ -61,12 +61,10 @@ class Duty {
   [[nodiscard]] std::optional<mission::Task> TaskAfter() const;
   [[nodiscard]] FollowerOptions::Next PrepareNext(const std::optional<OwnLens>& lens);
   void Relocalise();
-  void Locate(const mission::Task& task);
   [[nodiscard]] FollowerOptions FollowerFor(const mission::Task& task);
   // Returns nothing if there is no outcome to judge, because it failed before, or goes another way.
   [[nodiscard]] std::optional<Result<ReplayOutcome>> RunFollower(
-      RobotDevice& device, const FollowerOptions& follower,
-      std::unique_ptr<NextPath> begun = nullptr);
+      const FollowerOptions& follower, std::unique_ptr<NextPath> begun = nullptr);
   [[nodiscard]] bool BeginsToRelocalise(const Result<ReplayOutcome>& outcome);
   [[nodiscard]] std::vector<std::string> RoutesInView();
   [[nodiscard]] std::vector<std::string> AskWhatIsInView(const route::View& view);

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
-#include "agent/device/standing_device.h"
 #include "agent/duty/src/duty.h"
 #include "agent/duty/src/rerouting.h"
 #include "agent/duty/src/routes_seen.h"
@@ -31,10 +29,6 @@ constexpr std::chrono::milliseconds kWait{50};
 constexpr std::chrono::seconds kAnsweredWithin{3};
 // A robot that only looks for itself on a route drives nothing of it.
 constexpr double kAtOnce_m = 0.01;
-// An operator who says where a robot stands may be so far off.
-constexpr double kToldWithin_m = 3.0;
-// A robot that is told where it stands, and looks around there, finds itself so far behind at most.
-constexpr double kBehindTold_m = 0.5;
 // A robot that does not know its camera turns so far to either side to measure its magnification.
 constexpr double kForLens_rad = 0.2;
 constexpr const char* kWaitsForWord = "waits before a narrow place until a server lets it in";
@@ -61,8 +55,6 @@ void Duty::Work() {
     WaitOn(task);
   } else if (task.kind == mission::Task::Kind::kTeach) {
     Teach(task);
-  } else if (task.kind == mission::Task::Kind::kLocate) {
-    Locate(task);
   } else {
     Follow(task, std::move(begun));
   }
@@ -167,8 +159,7 @@ FollowerOptions Duty::FollowerFor(const mission::Task& task) {
   return follower;
 }
 
-std::optional<Result<ReplayOutcome>> Duty::RunFollower(RobotDevice& device,
-                                                       const FollowerOptions& follower,
+std::optional<Result<ReplayOutcome>> Duty::RunFollower(const FollowerOptions& follower,
                                                        std::unique_ptr<NextPath> begun) {
   auto store = options_.open_store();
   if (!store) {
@@ -180,7 +171,7 @@ std::optional<Result<ReplayOutcome>> Duty::RunFollower(RobotDevice& device,
   ailment_.clear();
   place_.reset();
   following_ = true;
-  auto outcome = Replay(device, follower, std::move(*store), exchange_.Visit(), std::move(begun));
+  auto outcome = Replay(device_, follower, std::move(*store), exchange_.Visit(), std::move(begun));
   following_ = false;
   if (outcome) lens_ = outcome->lens;
   const bool arrived = outcome && outcome->success;
@@ -244,7 +235,7 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
   while (tasks_after_.TryGet()) {
   }
   follower.next = [this](const std::optional<OwnLens>& lens) { return PrepareNext(lens); };
-  auto outcome = RunFollower(device_, follower, std::move(begun));
+  auto outcome = RunFollower(follower, std::move(begun));
   if (!outcome || BeginsToRelocalise(*outcome)) return;
   const bool arrived = *outcome && (*outcome)->success;
   // It had already arrived when it heard that its order ends further on.
@@ -312,7 +303,7 @@ void Duty::Relocalise() {
   follower.link.from_start = true;
   follower.how.session.anywhere = true;
   follower.end_m = [] { return kAtOnce_m; };
-  const auto outcome = RunFollower(device_, follower);
+  const auto outcome = RunFollower(follower);
   if (!outcome) return;
   if (place_) {
     relocalisation_.End();
@@ -328,40 +319,6 @@ void Duty::Relocalise() {
   if (relocalisation_.NotThere()) {
     End(State::kFailed, relocalisation_.Lost(), mission::WaitsFor::kPlace);
   }
-}
-
-// The robot looks at the place that it is told, and if it is not there, along the whole route: the
-// operator may be a little off. It does not move, and believes neither the operator nor its picture
-// alone.
-void Duty::Locate(const mission::Task& task) {
-  StandingDevice standing(device_);
-  FollowerOptions follower = FollowerFor(task);
-  follower.how.session.look_around_rad = 0.0;
-  follower.how.session.else_anywhere = false;
-  follower.link.from_start = true;
-  follower.link.begin_m = std::max(kAtOnce_m, task.from_m);
-  follower.end_m = [&] { return std::max(kAtOnce_m, task.from_m - kBehindTold_m); };
-  auto outcome = RunFollower(standing, follower);
-  if (!outcome) return;
-  if (*outcome && (*outcome)->end == RunEnd::kLost) {
-    follower.how.session.anywhere = true;
-    follower.link.begin_m = 0.0;
-    follower.end_m = [] { return kAtOnce_m; };
-    auto anywhere = RunFollower(standing, follower);
-    if (!anywhere) return;
-    // If it finds itself nowhere, what it missed where it was told to be says more.
-    const bool says_more = place_ || !*anywhere || (*anywhere)->end != RunEnd::kLost;
-    if (says_more) outcome = std::move(anywhere);
-  }
-  const bool ends =
-      !*outcome || (*outcome)->end == RunEnd::kStopped || (*outcome)->end == RunEnd::kCancelled;
-  if (ends || !place_) return Judge(*outcome);
-  stands_until_ = steady_clock::now() + kStandsThere;
-  const std::string where = fmt::format("it stands at {:.1f} m of {}", place_->along_m, on_route_);
-  if (std::abs(place_->along_m - task.from_m) <= kToldWithin_m) return Done(where);
-  End(State::kFailed, fmt::format("by what it sees {}, not at {:g} m: look which is right, and "
-                                  "say so once more",
-                                  where, task.from_m));
 }
 
 // A server gets the revision while the robot is free.

@@ -4,7 +4,6 @@ export { ShapeView } from './map/map';
 export { SiteView } from './map/site';
 export { NetworkPage } from './network/network';
 export { Cameras } from './robot/cameras';
-export { Locate } from './robot/locate';
 export { Teach, Teaching } from './robot/teach';
 export { Routes } from './routes/routes';
 export { History } from './runs/history';

@@ -19,8 +19,7 @@ namespace {
 
 constexpr const char* kGrammar =
     "'follow ROUTE[@REVISION] [backwards] [FROM..TO] [laps N] [speed F]', 'teach ROUTE [TAG "
-    "...]', 'turn DEGREES', 'wait SECONDS' or 'locate ROUTE[@REVISION] METRES', one after the "
-    "other";
+    "...]', 'turn DEGREES' or 'wait SECONDS', one after the other";
 constexpr const char* kWay =
     "after 'goto PLACE [way N]' 'follow ROUTE FROM..TO' alone, and 'turn DEGREES' before one";
 constexpr const char* kQueued = "queued";
@@ -44,8 +43,7 @@ std::vector<std::string> Words(std::string_view text) {
 }
 
 bool BeginsAnOrder(const std::string& word) {
-  return word == "follow" || word == "wait" || word == "teach" || word == "turn" ||
-         word == "locate";
+  return word == "follow" || word == "wait" || word == "teach" || word == "turn";
 }
 
 class Parser {
@@ -58,11 +56,10 @@ class Parser {
     }
     std::vector<Task> tasks;
     while (!rest().empty() && !TakeReason()) {
-      auto task = Next() == "wait"     ? Wait()
-                  : Next() == "teach"  ? Teach()
-                  : Next() == "turn"   ? Turn()
-                  : Next() == "locate" ? Locate()
-                                       : Follow();
+      auto task = Next() == "wait"    ? Wait()
+                  : Next() == "teach" ? Teach()
+                  : Next() == "turn"  ? Turn()
+                                      : Follow();
       if (!task) return tl::unexpected(task.error());
       if (auto fits = CheckOnWay(*task, tasks); !fits) return tl::unexpected(fits.error());
       tasks.push_back(*std::move(task));
@@ -133,16 +130,6 @@ class Parser {
     const auto degrees = ParseNumberWithin(word, -kMostTurn_deg, kMostTurn_deg);
     if (!degrees) return Wrong(word, "degrees to the left, -360 to 360");
     return Task{.kind = Task::Kind::kTurn, .turn_rad = Radians(*degrees)};
-  }
-
-  [[nodiscard]] Result<Task> Locate() {
-    (void)Take();
-    auto route = route::ParseRouteRef(Take());
-    if (!route) return Wrap(route.error(), "orders");
-    const std::string word = Take();
-    const auto along_m = ParseNumberWithin(word, 0.0, route::kMaxLength_m);
-    if (!along_m) return Wrong(word, "metres along the route, where the robot stands");
-    return Task{.kind = Task::Kind::kLocate, .route = *std::move(route), .from_m = *along_m};
   }
 
   [[nodiscard]] Result<Task> Teach() {
@@ -263,10 +250,8 @@ std::string ToText(const Task& task) {
     return fmt::format("teach {}{}{}", task.route.route, task.tags.empty() ? "" : " ",
                        fmt::join(task.tags, " "));
   }
-  const bool locates = task.kind == Task::Kind::kLocate;
-  std::string text = (locates ? "locate " : "follow ") + task.route.route;
+  std::string text = "follow " + task.route.route;
   if (task.route.revision > 0) text += fmt::format("@{}", task.route.revision);
-  if (locates) return fmt::format("{} {:g}", text, task.from_m);
   if (task.backwards) text += " backwards";
   if (task.from_m > 0.0 || task.to_m > 0.0) {
     const bool from_end = task.backwards && task.from_m == 0.0;

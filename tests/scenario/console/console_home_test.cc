@@ -239,52 +239,6 @@ TEST_F(ConsoleHomeTest, SeveralRobotsAreSelectedAndToldAtOnceAndWhoDoesNotObeyIs
               AllOf(HasSubstr("robot1: Does not obey"), HasSubstr("release it first")));
 }
 
-TEST_F(ConsoleHomeTest, AnOperatorSaysWhereARobotStandsAndItLooksWhetherItDoes) {
-  ASSERT_NO_FATAL_FAILURE(Begin());
-  Browser browser(folder_ / "");
-  ASSERT_TRUE(browser.runs()) << browser.log();
-  browser.Look(1280, 1000);
-  browser.Open(Page() + "#robot/robot1");
-  ASSERT_TRUE(browser.Click("//button[. = 'Locate …']")) << browser.Text();
-  ASSERT_TRUE(browser.Click("//option[starts-with(., 'hall')]")) << browser.Text();
-  // The line of a route that is known begins and ends so many pixels from its picture's edges.
-  ASSERT_TRUE(WaitUntil([&] {
-    return browser.Run(
-               "const line = document.querySelector('.locate svg.clickable');"
-               "if (!line) return false;"
-               "const { left, width } = line.getBoundingClientRect();"
-               "line.dispatchEvent(new MouseEvent('click', "
-               "{ bubbles: true, clientX: left + 12 + (width - 24) / 2 }));"
-               "return true") == json(true);
-  })) << browser.Text();
-  ASSERT_TRUE(browser.WaitForText("It stands at 1.")) << "in the middle\n" << browser.Text();
-  browser.Screenshot(Shot("locate"));
-  ASSERT_TRUE(browser.Type("//section[contains(@class, 'locate')]//input[@inputmode='decimal']",
-                           "\xEE\x80\x83\xEE\x80\x83\xEE\x80\x83"
-                           "0.2"));
-  ASSERT_TRUE(browser.Click("//button[. = 'It stands at 0.2 m of hall']")) << browser.Text();
-  ASSERT_TRUE(browser.WaitForText("it stands at 0.")) << browser.Text() << agent_->output();
-
-  // Where one clicks to send it, the same can be said.
-  browser.Open(Page() + "#fleet/robot1");
-  ASSERT_TRUE(browser.Click("//label[contains(., 'Routes')]/input")) << browser.Text();
-  ASSERT_TRUE(WaitUntil([&] {
-    return browser.Run(
-               "const line = document.querySelector('.lines svg.clickable');"
-               "if (!line) return false;"
-               "const { left } = line.getBoundingClientRect();"
-               "line.dispatchEvent(new MouseEvent('click', "
-               "{ bubbles: true, clientX: left + 16 }));"
-               "return true") == json(true);
-  })) << browser.Text();
-  ASSERT_TRUE(browser.Click("//button[. = 'robot1 stands here']")) << browser.Text();
-  ASSERT_TRUE(WaitUntil([&] {
-    const json found = Get("/api/missions?robot=robot1&state=arrived");
-    return found["missions"].size() == 2U;
-  })) << State().dump(2)
-      << agent_->output();
-}
-
 TEST_F(ConsoleHomeTest, AWallsScreenShowsWhatIsThereAndHasNoButtonButStopAll) {
   most_mps_ = "0.06";
   ASSERT_NO_FATAL_FAILURE(Begin());

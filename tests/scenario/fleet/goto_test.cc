@@ -6,7 +6,6 @@ namespace {
 
 using testing::AllOf;
 using testing::AnyOf;
-using testing::ContainsRegex;
 using testing::HasSubstr;
 
 class GotoTest : public RobotsTest {
@@ -110,40 +109,6 @@ TEST_F(GotoTest, ARobotThatIsCarriedToAnotherRouteFindsItselfThereAndIsLedOn) {
   const Place end = TruePlaces().back();
   EXPECT_NEAR(end.x_m, 7.2, 0.2);
   EXPECT_NEAR(end.y_m, 5.3, 0.3) << agent->output();
-}
-
-// It stands 4 m along the hall when its agent starts, of which nobody has told it.
-TEST_F(GotoTest, ARobotThatIsToldWhereItStandsLooksWhetherItDoesAndDoesNotMove) {
-  Teach("routes.db", "1,1.5\n6,1.5\n");
-  const auto server = Server();
-  const Ended delivered = RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"});
-  ASSERT_EQ(delivered.status, 0) << delivered.output;
-  const auto robot = Robot("robot1", {"--sim-truth", Path("truth.csv")}, "5,1.5\n6,1.5\n");
-  const auto agent = Serve("robot1", "duty", {}, "robot1.db");
-  ASSERT_TRUE(agent->WaitForOutput("available as 'robot1'")) << agent->output();
-  const Ended unknown = Send({"goto", "hall@4.6"});
-  EXPECT_EQ(unknown.status, 1) << unknown.output;
-
-  const Ended wrong = Send({"locate", "hall", "0.5", "--wait"});
-  EXPECT_EQ(wrong.status, 1) << wrong.output << agent->output();
-  EXPECT_THAT(wrong.output,
-              AllOf(ContainsRegex("by what it sees it stands at [34][.][0-9] m of hall"),
-                    HasSubstr("not at 0.5 m")));
-  const Ended right = Send({"locate", "hall", "3.8", "--wait"});
-  EXPECT_EQ(right.status, 0) << right.output << agent->output();
-  EXPECT_THAT(right.output, ContainsRegex("arrived: it stands at (3[.][6-9]|4[.][0-4]) m of hall"));
-  for (const Place& place : TruePlaces()) {
-    ASSERT_NEAR(place.x_m, 5.0, 0.01);
-    ASSERT_NEAR(place.y_m, 1.5, 0.01);
-  }
-  const Ended elsewhere = Send({"locate", "office", "1", "--wait"});
-  EXPECT_EQ(elsewhere.status, 1) << elsewhere.output;
-
-  const Ended again = Send({"locate", "hall", "4.1", "--wait"});
-  ASSERT_EQ(again.status, 0) << again.output << agent->output();
-  const Ended on = Send({"goto", "hall@4.6", "--wait"});
-  EXPECT_EQ(on.status, 0) << on.output << agent->output();
-  EXPECT_NEAR(TruePlaces().back().x_m, 5.6, 0.3);
 }
 
 // A dead end, and beside it what was taught the other way.

@@ -37,8 +37,7 @@ TEST(Orders, AsTextAreTheSameOrders) {
        {"follow hall", "follow hall@2 3..10 laps 4 speed 0.5", "wait 2.5", "follow a3f9c21 2..",
         "follow hall 0..7.5", "follow hall backwards", "follow hall backwards 10..3 speed 0.5",
         "follow hall backwards ..3", "follow hall@2 backwards 10..", "teach yard",
-        "teach yard wet laps 2.5-ton", "turn 180", "turn -57.5", "locate hall@2 12.5",
-        "locate hall 0"}) {
+        "teach yard wet laps 2.5-ton", "turn 180", "turn -57.5"}) {
     const auto tasks = ParseOrders(text);
     ASSERT_TRUE(tasks) << tasks.error().message;
     EXPECT_EQ(ToText(tasks->front()), text);

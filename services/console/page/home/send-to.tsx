@@ -44,12 +44,6 @@ export function SendTo({ robot, place, onWay, onEnd }: {
     setAnswer({ ...said, text: `${from}: ${said.text}` });
     if (said.ok) onWay(null);
   };
-  const locate = async () => {
-    setAnswer({ ok: true, text: 'Sending …' });
-    const said = await send(from, `locate ${place.route} ${place.along_m}`);
-    setAnswer({ ...said, text: `${from}: ${said.text}` });
-    if (said.ok) onWay(null);
-  };
   return (
     <section className="send-to" aria-label={`Send to ${to}`}>
       <p>
@@ -62,9 +56,6 @@ export function SendTo({ robot, place, onWay, onEnd }: {
       {found !== null && 'way' in found && <WayText to={to} way={found.way} />}
       {found !== null && 'way' in found && !answer?.ok && <Slide label={`Slide to send ${from} to ${to}`} onDone={() => go(found.way)} />}
       <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>{answer && (answer.ok ? '' : '⚠ ') + answer.text}</p>
-      {from && robot!.queue.length === 0 && !answer?.ok && (
-        <button title="It looks whether that is so, and does not move" onClick={() => void locate()}>{from} stands here</button>
-      )}
       <button onClick={() => { onWay(null); onEnd(); }}>{answer?.ok ? 'Close' : 'Cancel'}</button>
     </section>
   );

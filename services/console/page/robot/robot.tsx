@@ -6,7 +6,7 @@ import { Later } from '../later';
 import { Snapshot } from './snapshot';
 import { useMay } from '../me';
 import { Send, Slide } from './send';
-import { Badge, isFree, mayMove } from './state';
+import { Badge, mayMove } from './state';
 import { StopButton } from '../stop';
 import { Strip } from './strip';
 import { Charts } from './trace';
@@ -46,7 +46,7 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
     setAnswer(said);
     setAnswered(Date.now());
   };
-  const [open, setOpen] = useState<'' | 'send' | 'teach' | 'locate'>('');
+  const [open, setOpen] = useState<'' | 'send' | 'teach'>('');
   const [wants, setWants] = useState<boolean | null>(null);
   // Whoever drives it has to see where.
   const looking = wants ?? (robot.teaches || hasRoom());
@@ -65,8 +65,7 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
   const mission = robot.mission;
   const queue = robot.queue;
   const may = { send: robot.state !== 'shut down' && (mission !== null || robot.state !== 'driving'),
-    teach: !mission && queue.length === 0 && !['driving', 'teaching', 'shut down'].includes(robot.state),
-    locate: robot.on_duty && queue.length === 0 && isFree(robot) };
+    teach: !mission && queue.length === 0 && !['driving', 'teaching', 'shut down'].includes(robot.state) };
   const seesIt = robot.state !== 'shut down' && robot.heard;
   const mayDismiss = mayOperate && (!robot.heard || robot.state === 'shut down') && robot.unanswered_stop_unix_ms === null && lost_ms === null;
   return (
@@ -82,9 +81,9 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
         {obeys && others.map((each) => (
           <button key={each} onClick={() => order(each)}>{labels[each]}</button>
         ))}
-        {obeys && (['send', 'teach', 'locate'] as const).filter((each) => may[each]).map((each) => (
+        {obeys && (['send', 'teach'] as const).filter((each) => may[each]).map((each) => (
           <button key={each} aria-expanded={open === each} onClick={() => setOpen(open === each ? '' : each)}>
-            {each === 'teach' ? 'Teach …' : each === 'locate' ? 'Locate …' : mission || queue.length > 0 ? 'Queue …' : 'Send …'}
+            {each === 'teach' ? 'Teach …' : mission || queue.length > 0 ? 'Queue …' : 'Send …'}
           </button>
         ))}
         {mayDismiss && (
@@ -102,7 +101,6 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
       {obeys && open === 'send' && may.send && <Send who={robot.name} onGo={async (orders) => { sent(null); sent(await send(robot.name, orders)); }} />}
       {obeys && open === 'send' && may.send && <Slide label={`Slide to send ${robot.name} home`} onDone={() => order('home')} />}
       {obeys && open === 'teach' && may.teach && <Later show={({ Teach }) => <Teach robot={robot.name} onAnswer={sent} />} />}
-      {obeys && open === 'locate' && may.locate && <Later show={({ Locate }) => <Locate robot={robot} onAnswer={sent} />} />}
       {looking && seesIt && robot.teaches && <Snapshot robot={robot} brief />}
       {obeys && robot.teaches && seen_ms === null && <Later show={({ Teaching }) => <Teaching robot={robot} onAnswer={say} />} />}
       {robot.route && !robot.teaches && robot.route_id && <Strip robot={robot} />}

@@ -81,18 +81,18 @@ function Marker({ mark, width }: { mark: Mark; width: number }) {
 }
 
 // A route as a metro line, with the robots upon it. Drawn anew only when one of them has changed.
-export const Line = memo(function Line({ on, robots, pin = null, onPlace }: {
-  on: { route: string; route_id: string; teaching: string };
+const Line = memo(function Line({ robots, pin = null, onPlace }: {
   robots: Robot[];
   pin?: number | null;  // along it
   onPlace?: (along_m: number) => void;
 }) {
   const ref = useRef<HTMLDivElement>(null);
   const { seen, width } = useOnScreen(ref);
+  const on = robots.find((robot) => robot.route_id) ?? robots[0];
   const { shape, fetched, error } = useShape(on.route_id, on.teaching, seen);
   // 0: not yet. Of who teaches it, so far.
   const known = shape?.length ||
-    Math.max(0, ...robots.map((robot) => robot.length_m ?? (robot.teaches ? robot.along_m : null) ?? 0));
+    Math.max(...robots.map((robot) => robot.length_m ?? (robot.teaches ? robot.along_m : null) ?? 0));
   const length = known || 1;
   const unit = shape?.unit ?? 'm';
   const x = scaleOf(length, width);
@@ -109,7 +109,7 @@ export const Line = memo(function Line({ on, robots, pin = null, onPlace }: {
     .map((robot) => `${robot.name} ${robot.state} at ${how(robot, along(robot, shape), unit)}`).join('; ');
   return (
     <div className="line" ref={ref}>
-      <svg role="img" aria-label={`Route ${on.route}${text && `: ${text}`}`} width="100%" height={kMiddle + 30}
+      <svg role="img" aria-label={`Route ${on.route}: ${text}`} width="100%" height={kMiddle + 30}
         className={onPlace && shape ? 'clickable' : ''} onClick={click}>
         <path className="way" d={`M${x(0)} ${kMiddle}H${x(length)}`} />
         {shape && <Cells shape={shape} width={width} />}
@@ -127,13 +127,13 @@ export const Line = memo(function Line({ on, robots, pin = null, onPlace }: {
       )}
     </div>
   );
-}, (one, other) => one.pin === other.pin && one.on.route_id === other.on.route_id && one.on.teaching === other.on.teaching && one.robots.length === other.robots.length && one.robots.every((robot, i) => robot === other.robots[i]));
+}, (one, other) => one.pin === other.pin && one.robots.length === other.robots.length && one.robots.every((robot, i) => robot === other.robots[i]));
 
 // On a robot's card.
 export function Strip({ robot }: { robot: Robot }) {
   return (
     <div className="strip">
-      <Line on={robot} robots={[robot]} />
+      <Line robots={[robot]} />
       <span>{robot.route}: {how(robot, robot.along_m, 'm')}</span>
     </div>
   );
@@ -182,7 +182,7 @@ export function Lines({ robots, chosen, settled, pin, onPlace }: {
       {[...routes].map(([key, on]) => (
         <figure key={key}>
           <figcaption>{on[0].route}</figcaption>
-          <Line on={on.find((robot) => robot.route_id) ?? on[0]} robots={on} pin={pin?.route === on[0].route ? pin.along_m : null} onPlace={(along_m) => onPlace({ route: on[0].route, along_m })} />
+          <Line robots={on} pin={pin?.route === on[0].route ? pin.along_m : null} onPlace={(along_m) => onPlace({ route: on[0].route, along_m })} />
           <ul>
             {on.filter(stands).map((robot) => (
               <li key={robot.name} className={robot.name === chosen ? 'chosen' : ''}>

@@ -8,7 +8,7 @@ const kEvery_ms = 100;
 const kTurn_radps = 0.8;
 const kPad = 100;
 
-const kTaken = ['follow', 'wait', 'teach', 'turn', 'locate'];
+const kTaken = ['follow', 'wait', 'teach'];
 const kMostTags = 16;
 
 export function Teach({ robot, onAnswer }: { robot: string; onAnswer: (answer: Answer | null) => void }) {
