@@ -36,29 +36,29 @@ class Receiver {
 
 class ConsoleWebhooksTest : public ConsoleFleetTest {};
 
-TEST_F(ConsoleWebhooksTest, AProgramIsToldOfARobotThatIsGoneAlsoAfterItWasAwayItself) {
+TEST_F(ConsoleWebhooksTest, AProgramIsToldOfAServerThatIsGoneAlsoAfterItWasAwayItself) {
   auto receiver = std::make_unique<Receiver>();
   const int port = receiver->port();
   std::ofstream(Path("hooks.json")) << fmt::format(
       R"([{{"url": "http://127.0.0.1:{}/robots", "secret": "s", "events": ["alert"]}}])", port);
   const Words words{"--webhooks", Path("hooks.json"), "--alerts", Path("alerts.json")};
   StartConsole(words);
-  Teach();
-  PutOnDuty();
-  ASSERT_TRUE(WaitForState("available")) << State().dump();
-  agent_->Signal(SIGKILL);
+  server_ = Server();
+  ASSERT_TRUE(WaitUntil([&] { return !State()["servers"].empty(); })) << State().dump();
+  server_->Signal(SIGKILL);
+  (void)End(*server_);
   ASSERT_TRUE(WaitUntil([&] { return receiver->Told("alert.began").has_value(); }))
       << console_->output();
   const httplib::Request began = *receiver->Told("alert.began");
   const json body = json::parse(began.body);
-  EXPECT_EQ(body["alert"]["kind"], "offline");
-  EXPECT_EQ(body["alert"]["robot"], "robot1");
+  EXPECT_EQ(body["alert"]["kind"], "server-offline");
+  EXPECT_EQ(body["alert"]["server"], "server");
   const std::string signature = began.get_header_value("Trailcast-Signature");
   const std::int64_t at_s = std::stoll(signature.substr(2));
   EXPECT_EQ(signature, webhooks::SignatureOf("s", at_s, began.body));
 
   receiver.reset();
-  agent_ = Serve("robot1", "again");
+  server_ = Server();
   ASSERT_TRUE(console_->WaitForOutput("is not told of alert.ended")) << console_->output();
   console_->Signal(SIGTERM);
   EXPECT_EQ(End(*console_).status, 0);
