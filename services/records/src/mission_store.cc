@@ -402,10 +402,11 @@ Result<std::vector<MissionStore::Schedule>> MissionStore::Schedules() {
       "SELECT name, agent, mission, why FROM schedule_sent ORDER BY name, agent", SentIn);
   if (!all) return all;
   if (!sent) return tl::unexpected(sent.error());
-  for (const auto& [name, each] : *sent) {
-    const auto of = std::find_if(all->begin(), all->end(),
-                                 [&](const Schedule& schedule) { return schedule.name == name; });
-    if (of != all->end()) of->sent.push_back(each);
+  for (const auto& entry : *sent) {
+    const auto of = std::find_if(all->begin(), all->end(), [&](const Schedule& schedule) {
+      return schedule.name == entry.first;
+    });
+    if (of != all->end()) of->sent.push_back(entry.second);
   }
   return all;
 }
