@@ -40,7 +40,7 @@ const std::vector<Expected> kExpected = {
     {"dead-end", 18.0, 0.5, 60'000, GroundMode::kFlat},
     {"parking-place", 22.0, 0.5, 150'000, GroundMode::kFlat},
     {"field", 30.0, 20.0, 150'000, GroundMode::kFlat},
-    {"rows", 53.0, 0.5, 150'000, GroundMode::kFlat},
+    {"rows", 53.0, 0.5, 250'000, GroundMode::kFlat},
 };
 
 // A robot as drawn that is set down along the place's way, on the ground there.
