@@ -11,8 +11,8 @@
 #include "services/exchange/bounds.h"
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
+#include "tests/support/described.h"
 #include "tests/support/temp_dir.h"
-#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -53,7 +53,7 @@ class SchedulesApiTest : public testing::Test {
   }
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
-    ExpectAsDescribed(client);
+    client.set_logger(ExpectAsDescribed());
     client.set_read_timeout(60);
     return client;
   }

@@ -8,8 +8,8 @@
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
 #include "services/users/secret.h"
+#include "tests/support/described.h"
 #include "tests/support/temp_dir.h"
-#include "tests/unit/console/described.h"
 
 namespace trailcast::console {
 namespace {
@@ -48,7 +48,7 @@ class UsersApiTest : public testing::Test {
   }
   [[nodiscard]] httplib::Client Client(const std::string& token = "administers") const {
     httplib::Client client("localhost", web_->port());
-    ExpectAsDescribed(client);
+    client.set_logger(ExpectAsDescribed());
     client.set_read_timeout(20);
     client.set_default_headers({{"Authorization", "Bearer " + token}});
     return client;
