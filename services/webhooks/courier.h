@@ -16,8 +16,8 @@
 
 namespace trailcast::webhooks {
 
-// Tells hooks of alerts and missions, on a thread of its own. What waits is kept in a file, so that
-// it is told after a restart, too; a hook may be told of one event twice.
+// Tells hooks of alerts and missions, on a thread of its own. It keeps what waits in a file, so
+// that it is told after a restart, too; a hook may be told of one event twice.
 class Courier {
  public:
   struct Parts {

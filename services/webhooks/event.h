@@ -23,8 +23,8 @@ class EventFinder {
   // No more are remembered, apart from those that are there now.
   static constexpr std::size_t kMostSeen = 4096;
 
-  // `seen` is from Seen of an earlier run. What had become as it is before the first look of all is
-  // no news, whenever it is heard of.
+  // `seen` is from Seen of an earlier run. A state from before the first look of all is no news,
+  // whenever it is heard of.
   explicit EventFinder(std::map<std::string, std::string> seen = {}) : seen_(std::move(seen)) {}
 
   // `alerts` and `missions` are lists as openapi.yaml has them; missions are null while nobody

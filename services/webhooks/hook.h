@@ -11,7 +11,7 @@
 
 namespace trailcast::webhooks {
 
-// Whom to tell what.
+// This is a URL, and what it is told.
 struct Hook {
   std::string url{};
   http::Destination to{};

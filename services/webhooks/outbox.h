@@ -14,9 +14,9 @@
 
 namespace trailcast::webhooks {
 
-// What each hook still has to be told, in order: a hook that does not answer holds back its own
-// events alone. It has no I/O and no clock. Times are in milliseconds since 1970, which go on while
-// the program is not running. A clock that is set back makes nobody wait for longer than
+// This is all that hooks still have to be told, in order: a hook that does not answer holds back
+// its own events alone. It has no I/O and no clock. Times are in milliseconds since 1970, which go
+// on while the program is not running. A clock that is set back makes nobody wait for longer than
 // kLongestWait_ms.
 class Outbox {
  public:

@@ -19,8 +19,9 @@ struct Look {
   struct Recognised {
     std::size_t view = 0;  // position among the route's key views
     view::Comparison comparison;
-    // What one of its features is worth as evidence. Of more features more agree by chance: eight
-    // of eighty are as unlikely as the five of forty with which the belief begins to count.
+    // This is the worth of one feature as evidence. The more features there are, the more agree by
+    // chance: eight of eighty are as unlikely as the five of forty with which the belief begins to
+    // count.
     double worth = 1.0;
   };
   view::ViewTable seen;  // the frame's own features
