@@ -58,10 +58,11 @@ class Courier {
   const std::vector<Hook> hooks_;
   const std::filesystem::path file_;
   const Parts parts_;
-  Outbox outbox_;  // the thread's own, as is the next one
+  Outbox outbox_;  // the thread's own, as are those below
   EventFinder finder_;
-  std::string kept_;     // the file's content
-  std::string trouble_;  // as it was last told
+  std::unique_ptr<Seen> last_;  // most looks show what the one before has shown
+  std::string kept_;            // the file's content
+  std::string trouble_;         // as it was last told
 
   std::mutex mutex_;  // guards what follows
   bool over_ = false;

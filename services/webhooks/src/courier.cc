@@ -40,6 +40,7 @@ bool IsGood(int status) { return status >= 200 && status < 300; }
 struct Courier::Seen {
   Json alerts;
   Json missions;
+  bool operator==(const Seen&) const = default;
 };
 
 Result<std::unique_ptr<Courier>> Courier::Open(std::vector<Hook> hooks, const fs::path& file,
@@ -109,16 +110,17 @@ void Courier::Serve() {
                wait_ms > 0 && wait_ms <= Outbox::kLongestWait_ms) {
       changed_.wait_for(lock, std::chrono::milliseconds(wait_ms), is_due);
     }
-    const std::unique_ptr<Seen> seen = std::exchange(next_, nullptr);
+    std::unique_ptr<Seen> seen = std::exchange(next_, nullptr);
     const bool over = over_;
     lock.unlock();
     const std::int64_t now_ms = parts_.unix_ms();
-    if (seen) {
+    if (seen && !(last_ && *seen == *last_)) {
       for (const Event& event : finder_.Look(seen->alerts, seen->missions, now_ms)) {
         outbox_.Add(event, now_ms);
       }
+      last_ = std::move(seen);
+      Keep();
     }
-    Keep();
     if (over) return;
     if (const auto delivery = outbox_.Due(now_ms)) {
       Deliver(*delivery);
