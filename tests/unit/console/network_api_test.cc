@@ -14,9 +14,9 @@
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
-#include "tests/support/described.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/temp_dir.h"
+#include "tests/unit/console/replied.h"
 
 namespace trailcast::console {
 namespace {
@@ -64,23 +64,12 @@ class NetworkApiTest : public testing::Test {
     ASSERT_TRUE(routes_.PutRoute(info));
   }
 
-  struct Replied {
-    int status = 0;
-    json body{};
-    [[nodiscard]] std::string error() const { return body.value("error", ""); }
-  };
-  static Replied Read(const httplib::Result& got) {
-    return got ? Replied{got->status, json::parse(got->body, nullptr, false)} : Replied{};
-  }
   [[nodiscard]] httplib::Client Client() const {
-    httplib::Client client("localhost", web_->port());
-    client.set_logger(ExpectAsDescribed());
-    client.set_read_timeout(60);
-    return client;
+    return ClientOf(web_->port(), std::chrono::seconds(60));
   }
-  [[nodiscard]] Replied Get(const std::string& path) const { return Read(Client().Get(path)); }
+  [[nodiscard]] Replied Get(const std::string& path) const { return ReplyOf(Client().Get(path)); }
   [[nodiscard]] Replied Edit(const std::string& words) const {
-    return Read(
+    return ReplyOf(
         Client().Post("/api/network/edits", json{{"words", words}}.dump(), "application/json"));
   }
 
@@ -195,7 +184,7 @@ TEST_F(NetworkApiTest, WhatIsNotUnderstoodOrRefusedIsSaid) {
                             "join hall@1", "close hall\n3..7"}) {
     EXPECT_EQ(Edit(wrong).status, 400) << wrong;
   }
-  EXPECT_EQ(Read(Client().Post("/api/network/edits", "{}", "application/json")).status, 400);
+  EXPECT_EQ(ReplyOf(Client().Post("/api/network/edits", "{}", "application/json")).status, 400);
   const Replied refused = Edit("close attic");
   EXPECT_EQ(refused.status, 409);
   EXPECT_THAT(refused.error(), HasSubstr("server 'barn': there is no route 'attic'"));

@@ -14,10 +14,10 @@
 #include "services/fleet/routes/route_export.h"
 #include "services/image/files.h"
 #include "services/store/route_store.h"
-#include "tests/support/described.h"
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/walk_frames.h"
+#include "tests/unit/console/replied.h"
 
 namespace trailcast::console {
 namespace {
@@ -107,22 +107,12 @@ class RoutesApiTest : public testing::Test {
     return asked_;
   }
 
-  struct Replied {
-    int status = 0;
-    json body{};
-  };
-  static Replied Read(const httplib::Result& got) {
-    return got ? Replied{got->status, json::parse(got->body, nullptr, false)} : Replied{};
-  }
   [[nodiscard]] httplib::Client Client() const {
-    httplib::Client client("localhost", web_->port());
-    client.set_logger(ExpectAsDescribed());
-    client.set_read_timeout(20);
-    return client;
+    return ClientOf(web_->port(), std::chrono::seconds(20));
   }
-  [[nodiscard]] Replied Get(const std::string& path) const { return Read(Client().Get(path)); }
+  [[nodiscard]] Replied Get(const std::string& path) const { return ReplyOf(Client().Get(path)); }
   [[nodiscard]] Replied Post(const std::string& path, const json& body) const {
-    return Read(Client().Post(path, body.dump(), "application/json"));
+    return ReplyOf(Client().Post(path, body.dump(), "application/json"));
   }
 
   test::TempDir folder_;
@@ -146,7 +136,7 @@ TEST_F(RoutesApiTest, PagesBringEveryRouteOnce) {
   std::string cursor;
   int pages = 0;
   do {
-    const Replied page = Read(Client().Get(
+    const Replied page = ReplyOf(Client().Get(
         "/api/routes", httplib::Params{{"sort", "name"}, {"limit", "50"}, {"cursor", cursor}}, {}));
     ASSERT_EQ(page.status, 200) << page.body;
     EXPECT_EQ(page.body["total"], 120);
@@ -231,7 +221,7 @@ TEST_F(RoutesApiTest, HistoryIsAskedForAsItIsFiltered) {
 TEST_F(RoutesApiTest, APictureTellsWhereItWasTaken) {
   Serve();
   const auto post = [&](const std::vector<std::uint8_t>& bytes, const char* type = "image/jpeg") {
-    return Read(Client().Post("/api/where", std::string(bytes.begin(), bytes.end()), type));
+    return ReplyOf(Client().Post("/api/where", std::string(bytes.begin(), bytes.end()), type));
   };
   const std::vector<std::uint8_t> picture =
       image::EncodeJpeg(test::WalkFrame(60, 640, 480), 95).value();

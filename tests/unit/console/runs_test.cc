@@ -14,10 +14,10 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
 #include "tests/support/await.h"
-#include "tests/support/described.h"
 #include "tests/support/recorded/sample_run.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/walk_frames.h"
+#include "tests/unit/console/replied.h"
 
 namespace trailcast::console {
 namespace {
@@ -52,19 +52,11 @@ class RunsTest : public testing::Test {
     std::ofstream(file, std::ios::binary) << text;
     fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::minutes(minutes_ago));
   }
-  struct Replied {
-    int status = 0;
-    json body{};
-  };
   [[nodiscard]] httplib::Client Client() const {
-    httplib::Client client("localhost", web_->port());
-    client.set_logger(ExpectAsDescribed());
-    client.set_read_timeout(30);
-    return client;
+    return ClientOf(web_->port(), std::chrono::seconds(30));
   }
   [[nodiscard]] Replied Get(const std::string& path) const {
-    const auto got = Client().Get(path);
-    return got ? Replied{got->status, json::parse(got->body, nullptr, false)} : Replied{};
+    return console::ReplyOf(Client().Get(path));
   }
   // Once it has been read.
   [[nodiscard]] Replied Read(const std::string& path) const {

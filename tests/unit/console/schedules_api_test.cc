@@ -11,8 +11,8 @@
 #include "services/exchange/bounds.h"
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
-#include "tests/support/described.h"
 #include "tests/support/temp_dir.h"
+#include "tests/unit/console/replied.h"
 
 namespace trailcast::console {
 namespace {
@@ -43,29 +43,19 @@ class SchedulesApiTest : public testing::Test {
       }
     });
   }
-  struct Replied {
-    int status = 0;
-    json body{};
-    [[nodiscard]] std::string error() const { return body.value("error", ""); }
-  };
-  static Replied Read(const httplib::Result& got) {
-    return got ? Replied{got->status, json::parse(got->body, nullptr, false)} : Replied{};
-  }
   [[nodiscard]] httplib::Client Client() const {
-    httplib::Client client("localhost", web_->port());
-    client.set_logger(ExpectAsDescribed());
-    client.set_read_timeout(60);
-    return client;
+    return ClientOf(web_->port(), std::chrono::seconds(60));
   }
-  [[nodiscard]] Replied List() const { return Read(Client().Get("/api/schedules")); }
+  [[nodiscard]] Replied List() const { return ReplyOf(Client().Get("/api/schedules")); }
   [[nodiscard]] Replied Add(const std::string& words) const {
-    return Read(Client().Post("/api/schedules", json{{"words", words}}.dump(), "application/json"));
+    return ReplyOf(
+        Client().Post("/api/schedules", json{{"words", words}}.dump(), "application/json"));
   }
   [[nodiscard]] Replied Tell(const std::string& name, const std::string& order) const {
-    return Read(Client().Post("/api/schedules/" + name + "/" + order, "{}", "application/json"));
+    return ReplyOf(Client().Post("/api/schedules/" + name + "/" + order, "{}", "application/json"));
   }
   [[nodiscard]] Replied Remove(const std::string& name) const {
-    return Read(Client().Delete("/api/schedules/" + name));
+    return ReplyOf(Client().Delete("/api/schedules/" + name));
   }
 
   test::TempDir folder_;
@@ -118,7 +108,7 @@ TEST_F(SchedulesApiTest, WhatCannotBeIsRefusedInWords) {
   const Replied wrong = Add("round to robot1 at 25:00 zone UTC do follow hall");
   EXPECT_EQ(wrong.status, 400);
   EXPECT_THAT(wrong.error(), HasSubstr("'25:00'"));
-  EXPECT_EQ(Read(Client().Post("/api/schedules", "{}", "application/json")).status, 400);
+  EXPECT_EQ(ReplyOf(Client().Post("/api/schedules", "{}", "application/json")).status, 400);
   ASSERT_EQ(Add("round to robot1 at 08:30 zone UTC do follow hall").status, 200);
   const Replied taken = Add("round to robot1 at 09:30 zone UTC do follow hall");
   EXPECT_EQ(taken.status, 409);

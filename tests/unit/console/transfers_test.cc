@@ -15,10 +15,10 @@
 #include "services/route/digest.h"
 #include "services/store/route_store.h"
 #include "tests/support/await.h"
-#include "tests/support/described.h"
 #include "tests/support/keeper_thread.h"
 #include "tests/support/taught_route.h"
 #include "tests/support/temp_dir.h"
+#include "tests/unit/console/replied.h"
 
 namespace trailcast::console {
 namespace {
@@ -50,20 +50,10 @@ class TransfersTest : public testing::Test {
   }
 
   [[nodiscard]] httplib::Client Client() const {
-    httplib::Client client("localhost", web_->port());
-    client.set_logger(ExpectAsDescribed());
-    client.set_read_timeout(20);
-    return client;
-  }
-  struct Replied {
-    int status = 0;
-    json body{};
-  };
-  static Replied Read(const httplib::Result& got) {
-    return got ? Replied{got->status, json::parse(got->body, nullptr, false)} : Replied{};
+    return ClientOf(web_->port(), std::chrono::seconds(20));
   }
   [[nodiscard]] Replied Upload(const std::string& bytes) const {
-    return Read(Client().Post("/api/transfers/uploads", bytes, "application/octet-stream"));
+    return ReplyOf(Client().Post("/api/transfers/uploads", bytes, "application/octet-stream"));
   }
   // Returns the transfer as it is once it is over.
   [[nodiscard]] json AtItsEnd(const json& begun) const {
@@ -71,7 +61,7 @@ class TransfersTest : public testing::Test {
     Replied now;
     test::Await(
         [&] {
-          now = Read(Client().Get(path));
+          now = ReplyOf(Client().Get(path));
           return now.status != 200 || now.body["state"] != "under way";
         },
         "the transfer's end");
@@ -100,7 +90,7 @@ TEST_F(TransfersTest, ARouteIsDownloadedWhole) {
   Hold(taught);
   Serve();
   const json wanted{{"route", taught.info.key.route.value()}, {"teaching", "2"}};
-  const Replied begun = Read(Client().Post("/api/transfers", wanted.dump(), "application/json"));
+  const Replied begun = ReplyOf(Client().Post("/api/transfers", wanted.dump(), "application/json"));
   ASSERT_EQ(begun.status, 202) << begun.body;
   EXPECT_EQ(begun.body["total_bytes"], taught.info.bytes);
   const json end = AtItsEnd(begun.body);
@@ -115,7 +105,7 @@ TEST_F(TransfersTest, ARouteIsDownloadedWhole) {
   EXPECT_EQ(file->info().manifest_digest, taught.info.manifest_digest);
 
   const auto post = [&](const json& body) {
-    return Read(Client().Post("/api/transfers", body.dump(), "application/json")).status;
+    return ReplyOf(Client().Post("/api/transfers", body.dump(), "application/json")).status;
   };
   EXPECT_EQ(post({{"route", taught.info.key.route.value()}, {"teaching", "3"}}), 404);
   EXPECT_EQ(post({{"route", "hall"}, {"teaching", "2"}}), 400);
@@ -154,7 +144,7 @@ TEST_F(TransfersTest, WhatIsNoRouteFileIsRefusedAndHarmsNobody) {
                 AllOf(HasSubstr("no whole route file"), HasSubstr("the file"), Not(HasSubstr("/"))))
         << "nothing of this machine";
   }
-  EXPECT_EQ(Read(Client().Post("/api/transfers/uploads", file, "text/plain")).status, 415);
+  EXPECT_EQ(ReplyOf(Client().Post("/api/transfers/uploads", file, "text/plain")).status, 415);
   EXPECT_EQ(AtItsEnd(Upload(file).body)["state"], "done");
 }
 
