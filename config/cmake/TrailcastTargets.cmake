@@ -8,13 +8,20 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
+option(TRAILCAST_UNITY "Compile sources eight at a time, with precompiled headers" ON)
+
+# ccache keeps what is compiled with precompiled headers only where it is told that it may.
 find_program(TRAILCAST_CCACHE ccache)
 if(TRAILCAST_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER "${TRAILCAST_CCACHE}")
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${TRAILCAST_CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+                                  "${TRAILCAST_CCACHE}")
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
+  else()
+    add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-Xclang -fno-pch-timestamp>")
+  endif()
 endif()
-
-option(TRAILCAST_UNITY "Compile sources eight at a time" ON)
 
 set(TRAILCAST_SANITIZE "" CACHE STRING "Comma-separated sanitizers, e.g. address,undefined")
 if(TRAILCAST_SANITIZE)
@@ -56,6 +63,53 @@ function(trailcast_compile_together target)
   endif()
 endfunction()
 
+# Headers that nearly every source includes are parsed once for libraries, once for programs, and once
+# for tests. Headers whose meaning depends on a target's definitions (spdlog, httplib) are not among them.
+set(trailcast_headers <algorithm> <array> <chrono> <cmath> <cstdint> <deque> <filesystem> <fstream>
+                      <functional> <map> <memory> <mutex> <optional> <set> <span> <sstream> <string>
+                      <string_view> <thread> <utility> <variant> <vector> <fmt/format.h>)
+
+# Tests are optimised little, which takes much less time; what they test is optimised all the same.
+function(trailcast_compile_as_test target)
+  target_compile_options(${target} PRIVATE $<IF:$<BOOL:${TRAILCAST_SANITIZE}>,-O0,$<$<CONFIG:Release>:-O1>>)
+endfunction()
+
+# trailcast_precompile(<kind> HEADERS <h>... DEPS x): the headers as sources of this kind see them.
+function(trailcast_precompile kind)
+  cmake_parse_arguments(ARG "" "" "HEADERS;DEPS" ${ARGN})
+  if(NOT TRAILCAST_UNITY)
+    return()
+  endif()
+  set(target trailcast_precompiled_${kind})
+  set(source "${CMAKE_BINARY_DIR}/generated/${target}.cc")
+  if(kind STREQUAL library)
+    file(CONFIGURE OUTPUT "${source}" CONTENT "")
+    add_library(${target} OBJECT "${source}")
+  else() # another kind of position independence
+    file(CONFIGURE OUTPUT "${source}" CONTENT "int main() {}\n")
+    add_executable(${target} EXCLUDE_FROM_ALL "${source}")
+  endif()
+  trailcast_target_defaults(${target})
+  target_link_libraries(${target} PRIVATE ${ARG_DEPS})
+  target_precompile_headers(${target} PRIVATE ${ARG_HEADERS})
+  if(kind STREQUAL test)
+    trailcast_compile_as_test(${target})
+  endif()
+endfunction()
+
+trailcast_precompile(library HEADERS ${trailcast_headers} DEPS fmt::fmt)
+trailcast_precompile(program HEADERS ${trailcast_headers} DEPS fmt::fmt)
+trailcast_precompile(test HEADERS ${trailcast_headers} <gtest/gtest.h> <gmock/gmock.h> DEPS fmt::fmt
+                                                                                        GTest::gmock)
+
+# trailcast_include_precompiled(<target> <kind>)
+function(trailcast_include_precompiled target kind)
+  if(TRAILCAST_UNITY)
+    target_link_libraries(${target} PRIVATE fmt::fmt)
+    target_precompile_headers(${target} REUSE_FROM trailcast_precompiled_${kind})
+  endif()
+endfunction()
+
 # trailcast_library(<name> SOURCES a.cc b.cc APART c.cc DEPS x PRIVATE_DEPS y)
 # Sources are compiled eight at a time, which takes half the time; APART: one by one, since they
 # name things of their own like others do.
@@ -65,6 +119,7 @@ function(trailcast_library name)
   trailcast_target_defaults(${name})
   trailcast_compile_together(${name} ${ARG_APART})
   target_link_libraries(${name} PUBLIC ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
+  trailcast_include_precompiled(${name} library)
 endfunction()
 
 # trailcast_executable(<name> SOURCES main.cc APART other.cc DEPS x): compiled as libraries are.
@@ -74,9 +129,14 @@ function(trailcast_executable name)
   trailcast_target_defaults(${name})
   trailcast_compile_together(${name} ${ARG_APART})
   target_link_libraries(${name} PRIVATE ${ARG_DEPS})
+  trailcast_include_precompiled(${name} program)
 endfunction()
 
-# trailcast_test(<name> LABEL unit|simulator|contract|scenario TIMEOUT s SOURCES a_test.cc
+# Tests wait for what has to happen with bounds of their own, which say what did not; this one ends a
+# test that hangs beyond them.
+set(trailcast_test_timeout_s 1500)
+
+# trailcast_test(<name> LABEL unit|simulator|contract|scenario SOURCES a_test.cc
 #                APART b_test.cc DEPS x SHARDS n)
 # Every case is a ctest test of its own, so that they run in parallel and are named by situation.
 # The cases of a unit test's program run in one process, since under sanitizers most take longer to
@@ -89,16 +149,10 @@ endfunction()
 # LONG: cases, as GoogleTest filters them, that drive simulated robots for long: they are labelled
 # `trial`, which ./run trials runs.
 # Sources are compiled together or APART as a library's are.
-# NUMERIC: what they include computes for long, and is optimised under sanitizers, too.
+# NUMERIC: what they include computes for long, and is optimised as what they test is.
 function(trailcast_test name)
-  cmake_parse_arguments(ARG "TOGETHER;ALONE;REAL_TIME;WAITS;NUMERIC" "LABEL;TIMEOUT;SHARDS"
+  cmake_parse_arguments(ARG "TOGETHER;ALONE;REAL_TIME;WAITS;NUMERIC" "LABEL;SHARDS"
                         "SOURCES;APART;DEPS;LONG" ${ARGN})
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 300)
-  endif()
-  if(TRAILCAST_SANITIZE)  # several times slower
-    math(EXPR ARG_TIMEOUT "3 * ${ARG_TIMEOUT}")
-  endif()
   add_executable(${name} ${ARG_SOURCES} ${ARG_APART})
   trailcast_target_defaults(${name})
   trailcast_compile_together(${name} ${ARG_APART})
@@ -107,17 +161,15 @@ function(trailcast_test name)
   if(TARGET ${ARG_LABEL}s)
     add_dependencies(${ARG_LABEL}s ${name})
   endif()
-  # Much less time to compile; what is tested is optimised all the same.
-  if(TRAILCAST_SANITIZE AND NOT ARG_NUMERIC)
-    target_compile_options(${name} PRIVATE -O0)
-  else()
-    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(NOT ARG_NUMERIC)
+    trailcast_compile_as_test(${name})
+    trailcast_include_precompiled(${name} test)
   endif()
   set(discovery DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60) # from a cold disk, beside other work
   list(JOIN ARG_LONG ":" long)
   if(long)
     gtest_discover_tests(${name} TEST_FILTER "${long}" ${discovery}
-                         PROPERTIES LABELS trial TIMEOUT ${ARG_TIMEOUT})
+                         PROPERTIES LABELS trial TIMEOUT ${trailcast_test_timeout_s})
   endif()
   set(takes 4)
   if(ARG_REAL_TIME)
@@ -137,14 +189,14 @@ function(trailcast_test name)
       endif()
       add_test(NAME ${part} COMMAND ${name})
       set_tests_properties(
-        ${part} PROPERTIES LABELS unit TIMEOUT ${ARG_TIMEOUT} COST ${ARG_SHARDS}
+        ${part} PROPERTIES LABELS unit TIMEOUT ${trailcast_test_timeout_s} COST ${ARG_SHARDS}
                            ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${shard}")
     endforeach()
     return()
   endif()
   if(ARG_TOGETHER)
     add_test(NAME ${name} COMMAND ${name} "--gtest_filter=-${long}")
-    set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} COST 500
+    set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${trailcast_test_timeout_s} COST 500
                                              PROCESSORS ${takes})
     return()
   endif()
@@ -153,7 +205,7 @@ function(trailcast_test name)
     set(beside COST 1000)
   endif()
   gtest_discover_tests(${name} TEST_FILTER "-${long}" ${discovery}
-                       PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} PROCESSORS ${takes} ${beside})
+                       PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${trailcast_test_timeout_s} PROCESSORS ${takes} ${beside})
 endfunction()
 
 # trailcast_benchmark(<name> SOURCES a_bench.cc DEPS x): built with the rest, run by hand.

@@ -10,7 +10,7 @@ namespace trailcast::test {
 
 // A test waits this long for what has to happen. It is far beyond what a busy machine takes, so
 // that only a fault reaches it: a test that passes never waits for it.
-inline constexpr std::chrono::seconds kLongEnough{120};
+inline constexpr std::chrono::seconds kLongEnough{300};
 
 // Asks every `pause` whether `condition` holds. Returns false if it did not within `bound`.
 template <typename Condition>

@@ -102,7 +102,7 @@ class StoppedTest : public ProgramsTest {
   }
   static void ExpectDone(Process& process) {
     process.Signal(SIGCONT);
-    EXPECT_EQ(process.Wait(std::chrono::seconds(120)), 0) << process.output();
+    EXPECT_EQ(process.Wait(), 0) << process.output();
   }
   static void ExpectBounded(const char* whose, const MemoryWatch& watch) {
     EXPECT_LT(watch.grown_mb(), kBoundMB) << whose;
