@@ -136,7 +136,7 @@ void MissionRegistry::SendHome(const exchange::NowCommand& command, const AgentI
   const mission::Mission mission{.agent = agent,
                                  .id = fmt::format("{}{:016x}", kHomePrefix, command.number),
                                  .client = command.client,
-                                 .orders = OrdersWithoutWay(mission::kHomeWord),
+                                 .orders = OrdersWithoutWay({.to = std::string(mission::kHomeWord)}),
                                  .valid_for_s = kHomeWithin_s};
   Take({&mission, 1}, now, now_unix_ms);
   const auto found = unanswered_.find(agent);
