@@ -408,8 +408,8 @@ Command AddSend(CLI::App& parent, const program::CommonOptions& common) {
       "it last said so");
   app->add_option("--photo-every", options->photo_every_m,
                   "Photos at every so many metres along each route, from its beginning, so that "
-                  "all visits have theirs at the same places; 0: none")
-      ->check(CLI::Range(0.0, 1e4));
+                  "all visits have theirs at the same places")
+      ->check(CLI::Range(0.2, 1e4));
   app->add_option("--photo-at", options->photo_at,
                   "A photo at this place, ROUTE@METRES or a name; may be given several times")
       ->take_all()
