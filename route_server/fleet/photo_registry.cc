@@ -12,8 +12,7 @@ namespace trailcast::server {
 
 std::optional<exchange::PhotoRequest> PhotoRegistry::Take(const exchange::PhotoPiece& piece) {
   if (piece.client != server_) return std::nullopt;
-  exchange::PhotoRequest answer{
-      .client = server_, .holder = piece.holder, .photo = piece.photo};
+  exchange::PhotoRequest answer{.client = server_, .holder = piece.holder, .photo = piece.photo};
   const auto photo = photos::ParsePhoto(piece.words);
   const bool is_its_own = photo && photo->id == piece.photo && photo->robot == piece.holder;
   if (!is_its_own || photo->bytes > exchange::kMaxPhotoBytes) {
@@ -47,8 +46,7 @@ std::optional<exchange::PhotoRequest> PhotoRegistry::Take(const exchange::PhotoP
   return answer;
 }
 
-std::string PhotoRegistry::Keep(const photos::Photo& photo,
-                                const std::vector<std::uint8_t>& jpeg) {
+std::string PhotoRegistry::Keep(const photos::Photo& photo, const std::vector<std::uint8_t>& jpeg) {
   const auto gone = folder_->Add(photo, jpeg);
   if (!gone) return PlainText(gone.error().message, exchange::kMaxLineBytes);
   notes_.push_back(fmt::format("photo {} of {} by {} in mission {}", photo.id,

@@ -26,8 +26,8 @@ struct SendBody {
   std::string id;  // empty if it is to be drawn
   std::uint32_t valid_s = 600;
   bool goes_on = false;
-  bool unheard = false;  // also to a robot that nobody has heard of
-  double photo_every_m = 0.0;  // 0 for none
+  bool unheard = false;                 // also to a robot that nobody has heard of
+  double photo_every_m = 0.0;           // 0 for none
   std::vector<std::string> photo_at{};  // ROUTE@METRES, or names
 };
 [[nodiscard]] Result<SendBody> ReadSend(const std::string& body);

@@ -455,8 +455,8 @@ using AnyMessage =
                  CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, NowCommand,
                  NowAnswer, mission::Mission, mission::Report, MissionRequest, MissionReply,
                  DriveCommand, SnapshotRequest, Snapshot, NetworkEdit, NetworkRequest, NetworkReply,
-                 FollowedSections, ReachRequest, ReachReport, StoreSummary, PhotoPiece, PhotoRequest,
-                 AgentGone>;
+                 FollowedSections, ReachRequest, ReachReport, StoreSummary, PhotoPiece,
+                 PhotoRequest, AgentGone>;
 
 // This is one of these types. One source file makes its copies; otherwise each file that hands
 // messages on would make its own for two dozen types, which dominates compile times.

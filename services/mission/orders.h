@@ -33,7 +33,8 @@ namespace trailcast::mission {
 //   wait lane                until a server has sent the mission without it ('admitted'); until
 //                            then, 'queued' says which robots it waits for
 // Before a mission's first order, and after 'goto PLACE [way N ..]', may stand
-//   photo [every METRES] [at [NAME=]ROUTE[@REVISION]@METRES ...]   pictures that it takes on its way
+//   photo [every METRES] [at [NAME=]ROUTE[@REVISION]@METRES ...]   pictures that it takes on its
+//   way
 struct Task {
   enum class Kind : std::uint8_t { kFollow, kWait, kTeach, kTurn, kWaitWay, kWaitLane };
   Kind kind = Kind::kFollow;

@@ -21,8 +21,8 @@ struct ChangedRegion {
 struct Comparison {
   // The earlier photo, moved so that it lies over the later one. Where that has no part, it is 0.
   image::GrayImage earlier{};
-  double overlap = 0.0;   // share of the later photo that has such a part
-  int agreeing = 0;       // features that both have
+  double overlap = 0.0;  // share of the later photo that has such a part
+  int agreeing = 0;      // features that both have
   // The most striking first, at most kMostRegions.
   std::vector<ChangedRegion> changes{};
 };

@@ -19,11 +19,11 @@ struct Photo {
   std::string mission{};  // its id
   std::string route{};    // its name
   std::uint32_t revision = 0;
-  double along_m = 0.0;    // where it was taken, in metres from the route's beginning
-  double spot_m = 0.0;     // where it was to be taken
-  std::string place{};     // what people call that spot; empty if they do not
-  bool sure = true;        // the robot was sure of its place
-  bool backwards = false;  // it drove in reverse gear
+  double along_m = 0.0;            // where it was taken, in metres from the route's beginning
+  double spot_m = 0.0;             // where it was to be taken
+  std::string place{};             // what people call that spot; empty if they do not
+  bool sure = true;                // the robot was sure of its place
+  bool backwards = false;          // it drove in reverse gear
   std::int64_t taken_unix_ms = 0;  // by the robot's clock
   int width_px = 0;
   int height_px = 0;
@@ -52,9 +52,9 @@ struct PhotoQuery {
   std::string robot{};
   std::string mission{};
   std::string route{};
-  std::string place{};                 // what people call it
-  std::optional<double> spot_m{};      // along that route
-  std::int64_t from_unix_ms = 0;       // taken at that time or later
+  std::string place{};             // what people call it
+  std::optional<double> spot_m{};  // along that route
+  std::int64_t from_unix_ms = 0;   // taken at that time or later
   bool operator==(const PhotoQuery&) const = default;
 };
 [[nodiscard]] bool Matches(const PhotoQuery& query, const Photo& photo);

@@ -218,16 +218,15 @@ TEST_P(RouteExchangeContract, CarriesTheLargestSnapshot) {
 }
 
 TEST_P(RouteExchangeContract, CarriesTheLargestPieceOfAPhoto) {
-  ExpectRoundTrip(
-      exchange::PhotoPiece{.holder = AgentId("r"),
-                           .client = AgentId("s"),
-                           .photo = "4f2a",
-                           .words = std::string(exchange::kMaxLineBytes, 'w'),
-                           .offset = exchange::kMaxPhotoBytes,
-                           .bytes = std::vector<std::uint8_t>(exchange::kMaxPhotoPieceBytes,
-                                                              std::uint8_t{0xA5}),
-                           .error = "none"},
-      Topic::kPhotos);
+  ExpectRoundTrip(exchange::PhotoPiece{.holder = AgentId("r"),
+                                       .client = AgentId("s"),
+                                       .photo = "4f2a",
+                                       .words = std::string(exchange::kMaxLineBytes, 'w'),
+                                       .offset = exchange::kMaxPhotoBytes,
+                                       .bytes = std::vector<std::uint8_t>(
+                                           exchange::kMaxPhotoPieceBytes, std::uint8_t{0xA5}),
+                                       .error = "none"},
+                  Topic::kPhotos);
   ExpectRoundTrip(exchange::PhotoRequest{.client = AgentId("s"),
                                          .holder = AgentId("r"),
                                          .photo = "4f2a",

@@ -217,13 +217,13 @@ Result<int> RunServe(const CommandOptions& options, const ServeCommand& serve) {
   auto exchange = program::OpenExchange(options.common, program::WithAgents(std::move(use)));
   if (!exchange) return tl::unexpected(exchange.error());
   duty.vitals = VitalsOf(*opened->device, options);
-  const auto photos = photos::PhotoFolder::Open(
+  const auto photo_folder = photos::PhotoFolder::Open(
       serve.photos.empty() ? BesideStore(options, "photos") : serve.photos,
       static_cast<std::uint64_t>(1e6 * serve.photos_mb));
-  if (photos) {
-    duty.photos = photos->get();
+  if (photo_folder) {
+    duty.photo_folder = photo_folder->get();
   } else {
-    spdlog::error("{}", photos.error().message);
+    spdlog::error("{}", photo_folder.error().message);
   }
   if (auto served = ServeOnDuty(*opened->device, duty, std::move(*exchange)); !served) {
     return tl::unexpected(served.error());

@@ -42,9 +42,9 @@ Duty::Duty(RobotDevice& device, const OnDutyOptions& options,
       own_visit_(exchange_.Visit()),
       presence_(*own_visit_, FreeStatus(options.agent)) {
   presence_.FeelBy(options.vitals);
-  if (options.photos != nullptr) {
-    photo_taker_.emplace(*options.photos);
-    photo_sender_.emplace(options.agent, *options.photos);
+  if (options.photo_folder != nullptr) {
+    photo_taker_.emplace(*options.photo_folder);
+    photo_sender_.emplace(options.agent, *options.photo_folder);
   }
   exchange_.Tend({[this](const exchange::Message& message) { Hear(message); },
                   [this](exchange::RouteExchange& to) { Say(to); },

@@ -406,11 +406,11 @@ void Loop::ShowSnapshot(const ReplayStep& step) {
 void Loop::TakePhoto(const ReplayStep& step, const image::GrayImage& picture) {
   if (options_.photos == nullptr || !step.along_m || step.saw_nothing) return;
   const bool arrived = step.state == ReplayState::kArrived;
-  const bool knows_place = arrived || step.state == ReplayState::kFollowing ||
-                           step.state == ReplayState::kBlind;
+  const bool knows_place =
+      arrived || step.state == ReplayState::kFollowing || step.state == ReplayState::kBlind;
   if (!knows_place) return;
-  options_.photos->Pass(
-      {*path_.route(), *step.along_m, step.trust == Trust::kSure, arrived}, picture);
+  options_.photos->Pass({*path_.route(), *step.along_m, step.trust == Trust::kSure, arrived},
+                        picture);
 }
 
 void Loop::ShowWaiting() {

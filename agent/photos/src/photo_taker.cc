@@ -36,8 +36,7 @@ Result<std::vector<std::uint8_t>> Encoded(const image::GrayImage& picture) {
 
 }  // namespace
 
-PhotoTaker::PhotoTaker(photos::PhotoFolder& folder)
-    : folder_(folder), thread_([this] { Run(); }) {}
+PhotoTaker::PhotoTaker(photos::PhotoFolder& folder) : folder_(folder), thread_([this] { Run(); }) {}
 
 PhotoTaker::~PhotoTaker() {
   ending_ = true;

@@ -87,11 +87,10 @@ Result<Album::Jpeg> Album::Picture(const fleet::KnownPhoto& known) {
 }
 
 Album::Compared Album::Work(const fleet::KnownPhoto& earlier, const fleet::KnownPhoto& later) {
-  const auto before = Picture(earlier).and_then(
-      [&](const Jpeg& jpeg) { return Decoded(jpeg, earlier); });
+  const auto before =
+      Picture(earlier).and_then([&](const Jpeg& jpeg) { return Decoded(jpeg, earlier); });
   if (!before) return tl::unexpected(before.error());
-  const auto now =
-      Picture(later).and_then([&](const Jpeg& jpeg) { return Decoded(jpeg, later); });
+  const auto now = Picture(later).and_then([&](const Jpeg& jpeg) { return Decoded(jpeg, later); });
   if (!now) return tl::unexpected(now.error());
   auto comparison = photos::Compare(*before, *now);
   if (!comparison) return tl::unexpected(comparison.error());

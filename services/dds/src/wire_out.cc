@@ -547,13 +547,12 @@ Result<void> With(const PhotoPiece& message, const UseSample& use) {
 }
 
 Result<void> With(const PhotoRequest& message, const UseSample& use) {
-  const trailcast_wire_PhotoRequest sample{
-      .client = Lend(message.client.value()),
-      .holder = Lend(message.holder.value()),
-      .photo = Lend(message.photo),
-      .offset = message.offset,
-      .kept = static_cast<std::uint8_t>(message.kept ? 1 : 0),
-      .refusal = Lend(message.refusal)};
+  const trailcast_wire_PhotoRequest sample{.client = Lend(message.client.value()),
+                                           .holder = Lend(message.holder.value()),
+                                           .photo = Lend(message.photo),
+                                           .offset = message.offset,
+                                           .kept = static_cast<std::uint8_t>(message.kept ? 1 : 0),
+                                           .refusal = Lend(message.refusal)};
   return use(&sample);
 }
 

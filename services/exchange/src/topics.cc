@@ -38,18 +38,18 @@ TopicUse FollowerTopics() {
 }
 
 TopicUse ServerTopics() {
-  return {.write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts,
-                    Topic::kCatalogReplies, Topic::kAgents, Topic::kFleet, Topic::kNow,
-                    Topic::kMissions, Topic::kMissionStates, Topic::kStores},
-          .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kStores,
-                   Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits, Topic::kNow,
-                   Topic::kNowAnswers, Topic::kMissions, Topic::kMissionStates,
-                   Topic::kMissionRequests, Topic::kNetworkEdits, Topic::kNetworkRequests,
-                   Topic::kFollowed, Topic::kReachRequests, Topic::kReachReports, Topic::kPhotos,
-                   Topic::kPhotoRequests},
-          .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers,
-                           Topic::kMissionReplies, Topic::kNetworkReplies, Topic::kReachRequests,
-                           Topic::kReachReports, Topic::kPhotos, Topic::kPhotoRequests}};
+  return {
+      .write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts, Topic::kCatalogReplies,
+                Topic::kAgents, Topic::kFleet, Topic::kNow, Topic::kMissions, Topic::kMissionStates,
+                Topic::kStores},
+      .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kStores,
+               Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits, Topic::kNow,
+               Topic::kNowAnswers, Topic::kMissions, Topic::kMissionStates, Topic::kMissionRequests,
+               Topic::kNetworkEdits, Topic::kNetworkRequests, Topic::kFollowed,
+               Topic::kReachRequests, Topic::kReachReports, Topic::kPhotos, Topic::kPhotoRequests},
+      .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers,
+                       Topic::kMissionReplies, Topic::kNetworkReplies, Topic::kReachRequests,
+                       Topic::kReachReports, Topic::kPhotos, Topic::kPhotoRequests}};
 }
 
 TopicUse OperatorTopics() {

@@ -45,9 +45,8 @@ std::vector<KnownPhoto> PhotosIn(const AgentId& server, const std::vector<std::s
 }
 
 Result<std::vector<KnownPhoto>> AskForPhotos(exchange::RouteExchange& exchange,
-                                             const AgentId& client,
-                                             const photos::PhotoQuery& query, std::size_t limit,
-                                             milliseconds timeout) {
+                                             const AgentId& client, const photos::PhotoQuery& query,
+                                             std::size_t limit, milliseconds timeout) {
   const auto lines = AskAllForLines(exchange, client, ToText(query), timeout, limit);
   if (!lines) return tl::unexpected(lines.error());
   std::vector<KnownPhoto> all;
@@ -153,11 +152,11 @@ std::string PhotosTable(std::span<const KnownPhoto> photos) {
   std::string text =
       line("photo", "taken", "place", spot, "robot", robot, "mission", mission, "kB", "where");
   for (const auto& [server, photo] : photos) {
-    text += line(photo.id, LocalText(photo.taken_unix_ms), SpotText(photo), spot,
-                 photo.robot.value(), robot, photo.mission, mission,
-                 fmt::format("{:.1f}", 1e-3 * photo.bytes),
-                 fmt::format("{} at {:.1f} m{}", photo.route, photo.along_m,
-                             photo.sure ? "" : ", not sure"));
+    text +=
+        line(photo.id, LocalText(photo.taken_unix_ms), SpotText(photo), spot, photo.robot.value(),
+             robot, photo.mission, mission, fmt::format("{:.1f}", 1e-3 * photo.bytes),
+             fmt::format("{} at {:.1f} m{}", photo.route, photo.along_m,
+                         photo.sure ? "" : ", not sure"));
   }
   return text;
 }

@@ -43,12 +43,12 @@ Result<mission::PhotoWish> PhotoWishFor(
       if (found == named->end()) {
         std::vector<std::string> names;
         for (const auto& [name, is] : *named) names.push_back(name);
-        return Fail(ErrorCode::kNotFound,
-                    "no place is called '{}': {}, and 'trailcast network name' names one; "
-                    "ROUTE@METRES, as hall@12.5, needs no name",
-                    place,
-                    names.empty() ? "there are none"
-                                  : fmt::format("there are {}", fmt::join(names, ", ")));
+        return Fail(
+            ErrorCode::kNotFound,
+            "no place is called '{}': {}, and 'trailcast network name' names one; "
+            "ROUTE@METRES, as hall@12.5, needs no name",
+            place,
+            names.empty() ? "there are none" : fmt::format("there are {}", fmt::join(names, ", ")));
       }
       word = found->second;
     }
@@ -65,8 +65,8 @@ Result<std::string> OrdersWithPhotos(const std::string& orders, const mission::P
   if (!tasks) return tl::unexpected(tasks.error());
   auto going = mission::GoingIn(orders);
   if (going) going->photos = wish;
-  std::string with = going ? ToText(*going, *tasks)
-                           : fmt::format("{} {}", ToText(wish), mission::ToText(*tasks));
+  std::string with =
+      going ? ToText(*going, *tasks) : fmt::format("{} {}", ToText(wish), mission::ToText(*tasks));
   if (const auto understood = mission::ParseOrders(with); !understood) {
     return tl::unexpected(understood.error());
   }

@@ -344,8 +344,8 @@ std::string ToText(const Going& going, std::span<const Task> tasks) {
 }
 
 std::string ToText(const PhotoPlace& place) {
-  return fmt::format("{}{}{}@{:g}", place.name, place.name.empty() ? "" : "=",
-                     RefText(place.route), place.along_m);
+  return fmt::format("{}{}{}@{:g}", place.name, place.name.empty() ? "" : "=", RefText(place.route),
+                     place.along_m);
 }
 
 std::string ToText(const PhotoWish& wish) {

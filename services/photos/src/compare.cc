@@ -102,7 +102,7 @@ cv::Mat InLightOf(const cv::Mat& later, const cv::Mat& earlier, const cv::Mat& v
   earlier.convertTo(from, CV_32F);
   later.convertTo(to, CV_32F);
   cv::Mat counts = valid.clone();
-  cv::Mat fitted = from;
+  cv::Mat fitted;
   for (int round = 0; round < kRounds; ++round) {
     const double mean_from = cv::mean(from, counts)[0];
     const double mean_to = cv::mean(to, counts)[0];
@@ -122,8 +122,8 @@ cv::Mat InLightOf(const cv::Mat& later, const cv::Mat& earlier, const cv::Mat& v
 
 // Returns by how much each pixel of `one` lies outside what `other` has around that place.
 cv::Mat Beyond(const cv::Mat& one, const cv::Mat& other) {
-  const cv::Mat around = cv::getStructuringElement(
-      cv::MORPH_ELLIPSE, {2 * kSlack_px + 1, 2 * kSlack_px + 1});
+  const cv::Mat around =
+      cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kSlack_px + 1, 2 * kSlack_px + 1});
   cv::Mat most;
   cv::Mat least;
   cv::dilate(other, most, around);
@@ -200,9 +200,10 @@ Result<Comparison> Compare(const image::GrayImage& earlier, const image::GrayIma
       cv::findHomography(matched.earlier, matched.later, cv::RANSAC, kAgrees_px, agree);
   const int agreeing = homography.empty() ? 0 : cv::countNonZero(agree);
   if (agreeing < kLeastAgreeing || agreeing < kLeastShare * pairs) {
-    return DoNotAlign(fmt::format("of {} features that resemble each other, {} agree on how the "
-                                  "camera has moved",
-                                  pairs, agreeing));
+    return DoNotAlign(
+        fmt::format("of {} features that resemble each other, {} agree on how the "
+                    "camera has moved",
+                    pairs, agreeing));
   }
   if (!IsPlausible(homography, before.size())) {
     return DoNotAlign("they were taken from too different places");
@@ -229,9 +230,10 @@ Result<Comparison> Compare(const image::GrayImage& earlier, const image::GrayIma
                    cv::getStructuringElement(cv::MORPH_ELLIPSE, {kJoin_px, kJoin_px}));
   const double share = cv::countNonZero(changed) / (overlap * static_cast<double>(now.total()));
   if (share > kMostChanged) {
-    return DoNotAlign(fmt::format("{:.0f} % of what they have in common looks otherwise, as by "
-                                  "another light",
-                                  100.0 * share));
+    return DoNotAlign(
+        fmt::format("{:.0f} % of what they have in common looks otherwise, as by "
+                    "another light",
+                    100.0 * share));
   }
   Comparison comparison{.overlap = overlap, .agreeing = agreeing};
   comparison.changes = Blobs(difference, changed);
@@ -245,11 +247,12 @@ Result<Comparison> Compare(const image::GrayImage& earlier, const image::GrayIma
   }
   // For people at full size, with the earlier photo's own light.
   const double earlier_scale = ScaleOf(earlier);
-  const cv::Mat to_reduced = (cv::Mat_<double>(3, 3) << earlier_scale, 0, 0, 0, earlier_scale, 0, 0, 0, 1);
+  const cv::Mat to_reduced =
+      (cv::Mat_<double>(3, 3) << earlier_scale, 0, 0, 0, earlier_scale, 0, 0, 0, 1);
   const cv::Mat to_full = (cv::Mat_<double>(3, 3) << 1 / scale, 0, 0, 0, 1 / scale, 0, 0, 0, 1);
-  comparison.earlier = {.width = later.width, .height = later.height};
-  comparison.earlier.pixels.resize(static_cast<std::size_t>(later.width) *
-                                   static_cast<std::size_t>(later.height));
+  comparison.earlier = {
+      later.width, later.height,
+      std::vector<std::uint8_t>(static_cast<std::size_t>(later.width) * later.height)};
   cv::Mat full = ViewOf(comparison.earlier);
   cv::warpPerspective(ViewOf(earlier), full, to_full * homography * to_reduced, full.size());
   return comparison;

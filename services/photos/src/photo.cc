@@ -61,9 +61,8 @@ bool IsPhotoId(std::string_view text) { return text.size() == kIdDigits && IsHex
 
 std::string ToText(const Photo& photo) {
   return fmt::format("{} {} {} {} {} {:.2f} {:.2f} {} {} {} {} {} {} {} {}", photo.id,
-                     photo.robot.value(), photo.mission, photo.route, photo.revision,
-                     photo.along_m, photo.spot_m,
-                     photo.place.empty() ? kNone : std::string_view(photo.place),
+                     photo.robot.value(), photo.mission, photo.route, photo.revision, photo.along_m,
+                     photo.spot_m, photo.place.empty() ? kNone : std::string_view(photo.place),
                      photo.sure ? kSure : kUnsure, photo.backwards ? kBackwards : kAhead,
                      photo.taken_unix_ms, photo.width_px, photo.height_px, photo.bytes,
                      route::ToHex(photo.digest));
@@ -84,11 +83,10 @@ Result<Photo> ParsePhoto(std::string_view words) {
   const auto digest = ReadDigest(fields[14]);
   const bool names = IsPhotoId(photo.id) && IsValidName(fields[1]) && IsValidName(photo.mission) &&
                      IsValidName(photo.route) && (photo.place.empty() || IsValidName(photo.place));
-  const bool numbers = along_m && spot_m && digest && ReadNumber(fields[4], photo.revision) &&
-                       ReadNumber(fields[10], photo.taken_unix_ms) &&
-                       ReadNumber(fields[11], photo.width_px) &&
-                       ReadNumber(fields[12], photo.height_px) &&
-                       ReadNumber(fields[13], photo.bytes);
+  const bool numbers =
+      along_m && spot_m && digest && ReadNumber(fields[4], photo.revision) &&
+      ReadNumber(fields[10], photo.taken_unix_ms) && ReadNumber(fields[11], photo.width_px) &&
+      ReadNumber(fields[12], photo.height_px) && ReadNumber(fields[13], photo.bytes);
   const auto is_side = [](int px) { return px > 0 && px <= route::kMaxImageSide_px; };
   if (!names || !numbers || !is_side(photo.width_px) || !is_side(photo.height_px) ||
       photo.bytes == 0) {

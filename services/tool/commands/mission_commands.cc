@@ -38,7 +38,7 @@ struct SendOptions {
   std::string again;
   mission::PhotoWish again_photos{};  // of a mission to a place
   std::string id;
-  std::string from;  // where `goto` begins; empty for where the robot stands
+  std::string from;            // where `goto` begins; empty for where the robot stands
   double photo_every_m = 0.0;  // 0 for none
   std::vector<std::string> photo_at;
   double valid_s = 600.0;
@@ -184,7 +184,8 @@ int Send(const CLI::App& app, const program::CommonOptions& common, SendOptions 
   };
   and_also(exchange::HistoryTopics());
   const bool goes_to_a_place = !options.orders.empty() && options.orders.front() == "goto";
-  if (goes_to_a_place || !options.again.empty() || !options.photo_at.empty()) and_also(exchange::NetworkTopics());
+  if (goes_to_a_place || !options.again.empty() || !options.photo_at.empty())
+    and_also(exchange::NetworkTopics());
   auto peer = fleet::JoinAsOperator(common, use);
   if (!peer) return program::Complain(app, peer.error());
   if (const auto unknown = options.unheard ? std::nullopt

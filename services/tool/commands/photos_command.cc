@@ -152,8 +152,8 @@ int Photos(const CLI::App& app, const program::CommonOptions& common, PhotosOpti
   use.read.insert(use.read.end(), fetches.read.begin(), fetches.read.end());
   auto peer = fleet::JoinAsOperator(common, use);
   if (!peer) return program::Complain(app, peer.error());
-  const auto photos = fleet::AskForPhotos(*peer->exchange, peer->self, options.query,
-                                          options.limit, ToMilliseconds(options.timeout_s));
+  const auto photos = fleet::AskForPhotos(*peer->exchange, peer->self, options.query, options.limit,
+                                          ToMilliseconds(options.timeout_s));
   if (!photos) return program::Complain(app, photos.error());
   if (options.compare) return Compare(app, *peer, *photos, options);
   if (!options.to.empty()) {
@@ -161,8 +161,8 @@ int Photos(const CLI::App& app, const program::CommonOptions& common, PhotosOpti
       return program::Complain(app, fetched.error());
     }
   }
-  const std::string text = options.json ? program::Indented(fleet::PhotosJson(*photos))
-                                        : fleet::PhotosTable(*photos);
+  const std::string text =
+      options.json ? program::Indented(fleet::PhotosJson(*photos)) : fleet::PhotosTable(*photos);
   std::fputs(text.c_str(), stdout);
   return program::kExitOk;
 }

@@ -37,11 +37,11 @@ TEST_F(ConsolePhotosTest, APersonSeesThisVisitBesideTheLastOne) {
   browser_->Look(1200, 900);
   browser_->Open(Page() + "#history/photos");
   ASSERT_TRUE(browser_->WaitForText("There are no photos")) << browser_->Text();
-  ASSERT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall ..2"},
-                                                 {"id", "first"},
-                                                 {"photo_at", json::array({"hall@1"})}})
-                .status,
-            200);
+  ASSERT_EQ(
+      Post("/api/robots/robot1/missions",
+           {{"orders", "follow hall ..2"}, {"id", "first"}, {"photo_at", json::array({"hall@1"})}})
+          .status,
+      200);
   ASSERT_TRUE(Photographed("first")) << agent_->output();
   ASSERT_TRUE(WaitForState("available")) << Robot1();
   ASSERT_EQ(Post("/api/robots/robot1/missions", {{"orders", "follow hall backwards ..0.5"},

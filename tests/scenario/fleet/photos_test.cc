@@ -65,9 +65,8 @@ TEST_F(PhotosTest, OfARoundAreTakenAtTheirPlacesAndFetchedWithATable) {
   EXPECT_THAT(rows, HasSubstr(",robot1,first,hall,1,shelf,1.20,"));
 
   // A round back, in reverse gear, sees the same shelf from nearly the same place.
-  const Ended back =
-      Tool({"send", "robot1", "photo", "at", "shelf=hall@1.2", "follow", "hall", "backwards",
-            "..0.5", "--id", "second", "--wait"});
+  const Ended back = Tool({"send", "robot1", "photo", "at", "shelf=hall@1.2", "follow", "hall",
+                           "backwards", "..0.5", "--id", "second", "--wait"});
   EXPECT_EQ(back.status, 0) << back.output << agent_->output();
   (void)Listed("second", {"--place", "shelf"});
   const Ended compared = Tool({"photos", "--place", "shelf", "--compare"});

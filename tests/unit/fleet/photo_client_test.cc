@@ -77,23 +77,22 @@ TEST(PhotoFetch, HeedsOnlyItsServerAndItsPhoto) {
 TEST(AskForPhotos, AsksAllServersForAllPagesAndTakesTheLast) {
   exchange::InProcessBus bus;
   const auto serve = [&bus](const char* name, std::vector<std::string> lines) {
-    return std::jthread([&bus, name = std::string(name), lines = std::move(lines)](
-                            const std::stop_token& stop) {
-      const auto exchange = bus.Open(exchange::ServerTopics());
-      while (!stop.stop_requested()) {
-        for (const exchange::Message& message : exchange->Take(milliseconds(5))) {
-          const auto* asked = std::get_if<exchange::NetworkRequest>(&message);
-          if (asked == nullptr) continue;
-          exchange::NetworkReply reply{.server = AgentId(name),
-                                       .client = asked->client,
-                                       .request = asked->request};
-          if (asked->first < lines.size()) reply.lines = {lines[asked->first]};
-          reply.next = asked->first + 1 < lines.size() ? asked->first + 1 : 0;
-          if (asked->words != "photos route hall") reply.error = "is asked otherwise";
-          (void)exchange->Publish(reply);
-        }
-      }
-    });
+    return std::jthread(
+        [&bus, name = std::string(name), lines = std::move(lines)](const std::stop_token& stop) {
+          const auto exchange = bus.Open(exchange::ServerTopics());
+          while (!stop.stop_requested()) {
+            for (const exchange::Message& message : exchange->Take(milliseconds(5))) {
+              const auto* asked = std::get_if<exchange::NetworkRequest>(&message);
+              if (asked == nullptr) continue;
+              exchange::NetworkReply reply{
+                  .server = AgentId(name), .client = asked->client, .request = asked->request};
+              if (asked->first < lines.size()) reply.lines = {lines[asked->first]};
+              reply.next = asked->first + 1 < lines.size() ? asked->first + 1 : 0;
+              if (asked->words != "photos route hall") reply.error = "is asked otherwise";
+              (void)exchange->Publish(reply);
+            }
+          }
+        });
   };
   const auto line = [](char digit) { return ToText(APhoto(digit, SomeJpeg(10))); };
   const auto barn = serve("barn", {line('c'), "a line of a later version", line('a')});
@@ -101,8 +100,7 @@ TEST(AskForPhotos, AsksAllServersForAllPagesAndTakesTheLast) {
   const auto attic = serve("attic", {});
   exchange::TopicUse use = exchange::NetworkTopics();
   const auto exchange = bus.Open(use);
-  const auto found =
-      AskForPhotos(*exchange, kClient, {.route = "hall"}, 10, milliseconds(20'000));
+  const auto found = AskForPhotos(*exchange, kClient, {.route = "hall"}, 10, milliseconds(20'000));
   ASSERT_TRUE(found) << found.error().message;
   std::vector<std::string> ids;
   for (const KnownPhoto& known : *found) ids.push_back(known.server.value() + known.photo.id[0]);

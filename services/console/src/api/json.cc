@@ -111,12 +111,12 @@ Result<void> ReadPhotos(const Json& json, SendBody& send) {
   }
   if (!json.contains("photo_at")) return {};
   const Json& places = json["photo_at"];
-  const bool are_lines = places.is_array() && places.size() <= mission::kMostPhotoPlaces &&
-                         std::all_of(places.begin(), places.end(), [](const Json& place) {
-                           return place.is_string() &&
-                                  IsPlainText(place.get_ref<const std::string&>(),
-                                              exchange::kMaxLineBytes);
-                         });
+  const bool are_lines =
+      places.is_array() && places.size() <= mission::kMostPhotoPlaces &&
+      std::all_of(places.begin(), places.end(), [](const Json& place) {
+        return place.is_string() &&
+               IsPlainText(place.get_ref<const std::string&>(), exchange::kMaxLineBytes);
+      });
   if (!are_lines) {
     return Fail(ErrorCode::kInvalidArgument,
                 "'photo_at' is to be a list of at most {} places, each ROUTE@METRES or a name",
@@ -143,8 +143,8 @@ std::string ReasonIfAny(const std::string& body) {
 }
 
 Result<SendBody> ReadSend(const std::string& body) {
-  const auto json = ReadObject(body, {"orders", "id", "valid_s", "goes_on", "unheard",
-                                      "photo_every_m", "photo_at"});
+  const auto json = ReadObject(
+      body, {"orders", "id", "valid_s", "goes_on", "unheard", "photo_every_m", "photo_at"});
   if (!json) return tl::unexpected(json.error());
   auto orders = LineIn(*json, "orders");
   if (!orders) return tl::unexpected(orders.error());

@@ -266,23 +266,22 @@ Result<PhotosQuery> ReadPhotosQuery(const Parameters& parameters) {
       return NameInto<photos::PhotoQuery>(field)(text, query.of);
     };
   };
-  static const Readers<Query> kAll{
-      {"robot", name_into(&photos::PhotoQuery::robot)},
-      {"route", name_into(&photos::PhotoQuery::route)},
-      {"mission", name_into(&photos::PhotoQuery::mission)},
-      {"place",
-       [](const std::string& text, Query& query) -> Result<void> {
-         auto at = photos::AtPlace(query.of, text);
-         if (!at) return tl::unexpected(at.error());
-         query.of = *std::move(at);
-         return {};
-       }},
-      {"from_unix_ms",
-       [](const std::string& text, Query& query) -> Result<void> {
-         if (ReadNumber(text, query.of.from_unix_ms)) return {};
-         return Fail(ErrorCode::kInvalidArgument, "is no number");
-       }},
-      {"first", NumberInto<Query, std::uint32_t>(&Query::first)}};
+  static const Readers<Query> kAll{{"robot", name_into(&photos::PhotoQuery::robot)},
+                                   {"route", name_into(&photos::PhotoQuery::route)},
+                                   {"mission", name_into(&photos::PhotoQuery::mission)},
+                                   {"place",
+                                    [](const std::string& text, Query& query) -> Result<void> {
+                                      auto at = photos::AtPlace(query.of, text);
+                                      if (!at) return tl::unexpected(at.error());
+                                      query.of = *std::move(at);
+                                      return {};
+                                    }},
+                                   {"from_unix_ms",
+                                    [](const std::string& text, Query& query) -> Result<void> {
+                                      if (ReadNumber(text, query.of.from_unix_ms)) return {};
+                                      return Fail(ErrorCode::kInvalidArgument, "is no number");
+                                    }},
+                                   {"first", NumberInto<Query, std::uint32_t>(&Query::first)}};
   Query query;
   if (auto read = ReadParameters(parameters, kAll, "", query); !read) {
     return tl::unexpected(read.error());

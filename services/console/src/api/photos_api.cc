@@ -23,7 +23,7 @@ using program::Json;
 using program::OneLine;
 using program::Rounded;
 
-constexpr int kMostFolders = 2;           // that are sent at once
+constexpr int kMostFolders = 2;  // that are sent at once
 constexpr std::size_t kMostInFolder = 5000;
 constexpr std::int64_t kMsPerS = 1000;
 
@@ -52,8 +52,8 @@ void AnswerJpeg(Response& response, const std::vector<std::uint8_t>& jpeg) {
 }
 
 void ShowPicture(Album& album, const std::string& id, Response& response) {
-  const auto jpeg = album.Find(id).and_then(
-      [&](const fleet::KnownPhoto& known) { return album.Picture(known); });
+  const auto jpeg =
+      album.Find(id).and_then([&](const fleet::KnownPhoto& known) { return album.Picture(known); });
   if (!jpeg) return Refuse(response, jpeg.error());
   AnswerJpeg(response, **jpeg);
 }

@@ -319,12 +319,12 @@ void Web::ServeMissions() {
 
 // A place's name is looked up in the network that servers keep.
 Result<std::string> Web::OrdersOf(const SendBody& body) {
-  const auto wish = fleet::PhotoWishFor(
-      body.photo_every_m, body.photo_at, [this]() -> Result<std::vector<std::string>> {
-        auto answer = AskForNetwork(desk_, "");
-        if (!answer) return tl::unexpected(answer.error());
-        return std::move(answer->lines);
-      });
+  const auto wish = fleet::PhotoWishFor(body.photo_every_m, body.photo_at,
+                                        [this]() -> Result<std::vector<std::string>> {
+                                          auto answer = AskForNetwork(desk_, "");
+                                          if (!answer) return tl::unexpected(answer.error());
+                                          return std::move(answer->lines);
+                                        });
   if (!wish) return tl::unexpected(wish.error());
   return fleet::OrdersWithPhotos(body.orders, *wish);
 }

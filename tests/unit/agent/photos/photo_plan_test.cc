@@ -60,7 +60,8 @@ TEST(PhotoPlan, TakesThemInReverseGearToo) {
 }
 
 TEST(PhotoPlan, TakesOneOfEachPlaceOnItsRouteAndRevision) {
-  PhotoPlan plan = PlanOf("photo at b=hall@4.1 at hall@4 at hall@2@1 at hall@3@2 at yard@3 follow hall");
+  PhotoPlan plan =
+      PlanOf("photo at b=hall@4.1 at hall@4 at hall@2@1 at hall@3@2 at yard@3 follow hall");
   EXPECT_THAT(plan.Photographed(), IsEmpty());
   EXPECT_THAT(Drive(plan, 0.0, 4.05), ElementsAre(2.0, 4.0));
   EXPECT_THAT(plan.Photographed(), ElementsAre("hall@4", "hall@3@2"));
