@@ -44,6 +44,8 @@ struct StoreOptions {
   std::string missions;   // if empty, it is beside the location, provided that is a file
   std::string junctions;  // likewise
   std::string history;    // likewise
+  std::string photos;     // likewise, a folder
+  std::uint64_t photos_mb = 2000;
   bool junctions_auto = false;
   std::uint64_t limit_mb = 0;
   std::uint64_t quota_mb = 0;  // for each scout
@@ -82,6 +84,15 @@ void AddStoreOptions(CLI::App& app, StoreOptions& options) {
          "by whom, created if missing; default: the store's name with '.history' behind it; "
          "with PostgreSQL, each server's own: without one, it keeps no history")
       ->envname("TRAILCAST_HISTORY");
+  app.add_option("--photos", options.photos,
+                 "Folder that holds the photos that robots took on missions, made if missing; "
+                 "default: the store's name with '.photos' behind it; with PostgreSQL, each "
+                 "server's own: without one, it keeps no photos, and robots keep theirs")
+      ->envname("TRAILCAST_PHOTOS");
+  app.add_option("--photos-mb", options.photos_mb,
+                 "Megabytes that these may have: the oldest make room")
+      ->check(CLI::Range(1, 100'000'000))
+      ->envname("TRAILCAST_PHOTOS_MB");
   app.add_flag(
          "--junctions-auto", options.junctions_auto,
          "Make junctions of the places where the server is sure, at 0.9 or more, that routes meet; "
@@ -165,6 +176,18 @@ void Keep(const std::string& file, const char* what, trailcast::server::Server& 
   if (!kept) spdlog::error("keeping no {}: {}", what, kept.error().message);
 }
 
+void KeepPhotos(const StoreOptions& options, trailcast::server::Server& server) {
+  constexpr std::uint64_t kMegabyte = 1'000'000;
+  const std::string folder = OwnFile(options, options.photos, ".photos");
+  if (folder.empty()) return;
+  auto opened = trailcast::photos::PhotoFolder::Open(folder, options.photos_mb * kMegabyte);
+  if (opened) {
+    server.KeepPhotos(*std::move(opened));
+  } else {
+    spdlog::error("{}", opened.error().message);
+  }
+}
+
 // Nothing is deleted whose age is not known.
 trailcast::Result<void> Retain(const StoreOptions& options, trailcast::server::Server& server) {
   const trailcast::catalog::RetentionPolicy policy{
@@ -216,6 +239,7 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const Store
   Keep(OwnFile(options, options.junctions, ".joints"), "network of routes", **server,
        &Server::KeepNetwork);
   Keep(OwnFile(options, options.history, ".history"), "history", **server, &Server::KeepHistory);
+  KeepPhotos(options, **server);
   if (options.junctions_auto) (*server)->TakeSureJunctions();
   if (auto retains = Retain(options, **server); !retains) {
     return program::Complain(app, retains.error());

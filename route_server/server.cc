@@ -160,6 +160,7 @@ void Server::Receive(exchange::Message message) {
     ReceiveRequest(message);
     return;
   }
+  if (ServePhotos(message)) return;
   const bool passed_on = PassOn(message);
   if (missions_) {
     const auto now = steady_clock::now();

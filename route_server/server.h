@@ -10,6 +10,7 @@
 
 #include "route_server/fleet/fleet_news.h"
 #include "route_server/fleet/mission_registry.h"
+#include "route_server/fleet/photo_registry.h"
 #include "route_server/fleet/route_followers.h"
 #include "route_server/fleet/schedule_registry.h"
 #include "route_server/junctions/junction_finder.h"
@@ -58,6 +59,8 @@ class Server {
   [[nodiscard]] Result<void> KeepNetwork(std::unique_ptr<store::NetworkStore> store);
   // Keeps the changes of both likewise.
   [[nodiscard]] Result<void> KeepHistory(std::unique_ptr<store::HistoryStore> store);
+  // Keeps photos that robots take on missions likewise.
+  void KeepPhotos(std::unique_ptr<photos::PhotoFolder> folder);
   // Turns sure proposals into junctions without asking an operator.
   void TakeSureJunctions() { takes_sure_junctions_ = true; }
   // Watches the state of the exchange's network from now on. Without it, the network is assumed to
@@ -105,6 +108,10 @@ class Server {
   [[nodiscard]] Result<void> OpenSchedules();
   void TellSchedules();
   [[nodiscard]] bool ServeSchedules(const exchange::Message& request);
+  // Takes photos from robots and gives them to operators, or answers a question about them. Returns
+  // false for a message that is about something else.
+  [[nodiscard]] bool ServePhotos(const exchange::Message& message);
+  [[nodiscard]] bool AnswerPhotos(const exchange::Message& request);
   [[nodiscard]] std::string ClosedIn(const std::string& orders);
   void Replan(const AgentId& agent);
   void KeepWays();
@@ -151,6 +158,7 @@ class Server {
   FollowerRegistry followers_;
   std::unique_ptr<MissionRegistry> missions_;    // null if it keeps none
   std::unique_ptr<ScheduleRegistry> schedules_;  // in the missions' store
+  std::optional<PhotoRegistry> photos_;          // without it, it keeps none
   std::unique_ptr<NetworkRegistry> network_;     // null if it keeps none
   std::unique_ptr<JunctionFinder> junctions_;    // for that
   bool takes_sure_junctions_ = false;

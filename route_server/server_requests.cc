@@ -102,7 +102,7 @@ void Server::ServeRequests() {
 }
 
 void Server::Serve(const exchange::Message& request) {
-  if (ServeSchedules(request)) return;
+  if (ServeSchedules(request) || AnswerPhotos(request)) return;
   const auto* question = std::get_if<exchange::NetworkRequest>(&request);
   const auto* edit = std::get_if<exchange::NetworkEdit>(&request);
   const auto since_unix_ms =

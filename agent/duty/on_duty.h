@@ -12,6 +12,7 @@
 #include "agent/teach/scout.h"
 #include "services/exchange/route_exchange.h"
 #include "services/mission/orders.h"
+#include "services/photos/photo_folder.h"
 #include "services/program/presence.h"
 #include "services/store/route_store.h"
 
@@ -27,8 +28,9 @@ struct OnDutyOptions {
   std::function<FollowerOptions(const mission::Task&)> follower;
   // Returns the options for teaching a task's route. Name and tags of the task are already set.
   std::function<ScoutOptions(const mission::Task&)> scout;
-  std::string why_no_scout;                  // if not empty, it does not teach
-  Refreshing refreshing = Refreshing::kOff;  // for routes that it has followed
+  std::string why_no_scout;                     // if not empty, it does not teach
+  Refreshing refreshing = Refreshing::kOff;     // for routes that it has followed
+  photos::PhotoFolder* photo_folder = nullptr;  // keeps those of its missions; null: it takes none
   // Open the store of the agent's routes, for following and for teaching.
   std::function<Result<std::unique_ptr<store::RouteStore>>()> open_store;
   std::function<Result<std::unique_ptr<store::RouteStore>>()> open_scouts_store;

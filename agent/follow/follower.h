@@ -19,6 +19,7 @@
 
 namespace trailcast::agent {
 
+class PhotoRun;
 class Snapshots;
 
 struct FollowerOptions {
@@ -35,6 +36,7 @@ struct FollowerOptions {
   // A robot that gets no further along the route for so long, by its sensors' time, gives up.
   std::chrono::seconds stuck_after{60};
   Snapshots* snapshots = nullptr;  // for people who look through its camera; may be null
+  PhotoRun* photos = nullptr;      // the photos to be taken on the way; null for none
   // Returns the route on which it goes on where this one ends for it, null for none, or nothing for
   // no change. The control loop calls it at each frame with its knowledge of the robot's camera.
   using Next = std::optional<std::unique_ptr<NextPath>>;

@@ -48,6 +48,7 @@ class MissionHandler {
     std::uint32_t lap = 0;   // and its laps already done
     bool begun = false;      // an earlier run has begun it
     mission::Going going{};  // without a destination if it was sent along routes by hand
+    mission::PhotoWish photos{};
     [[nodiscard]] mission::Task::Kind kind() const { return tasks[task].kind; }
   };
   // Returns the mission to be done, or none if the robot is free.

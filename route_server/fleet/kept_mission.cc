@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "services/base/text.h"
 #include "services/exchange/bounds.h"
-#include "services/mission/orders.h"
 
 namespace trailcast::server {
 
@@ -13,13 +14,14 @@ std::string Describe(const mission::Mission& mission) {
                      PlainText(mission.orders, 200));
 }
 
-std::string OrdersWithoutWay(std::string_view goal) {
-  return fmt::format("goto {} wait way", goal);
+std::string OrdersWithoutWay(const mission::Going& going) {
+  const std::vector<mission::Task> waits{{.kind = mission::Task::Kind::kWaitWay}};
+  return ToText({.to = going.to, .photos = going.photos}, waits);
 }
 
 bool SendsHome(const mission::Record& record) {
   return record.mission.id.starts_with(kHomePrefix) &&
-         record.mission.orders == OrdersWithoutWay(mission::kHomeWord);
+         record.mission.orders == OrdersWithoutWay({.to = std::string(mission::kHomeWord)});
 }
 
 std::uint32_t EndedStates() {

@@ -3,9 +3,9 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "services/mission/mission.h"
+#include "services/mission/orders.h"
 
 namespace trailcast::server {
 
@@ -22,7 +22,7 @@ inline constexpr const char* kHomePrefix = "home-";
 [[nodiscard]] std::string Describe(const mission::Mission& mission);
 
 // Returns the orders of a mission whose path is only found once its robot is about to begin.
-[[nodiscard]] std::string OrdersWithoutWay(std::string_view goal);
+[[nodiscard]] std::string OrdersWithoutWay(const mission::Going& going);
 
 [[nodiscard]] bool SendsHome(const mission::Record& record);
 

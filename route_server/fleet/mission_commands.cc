@@ -133,11 +133,12 @@ void MissionRegistry::SendHome(const exchange::NowCommand& command, const AgentI
   const auto* answer = answers_.Find({agent, {command.client, command.number}});
   const bool obeys = answer != nullptr && *answer && !(*answer)->refused;
   if (command.order != exchange::NowOrder::kHome || !obeys) return;
-  const mission::Mission mission{.agent = agent,
-                                 .id = fmt::format("{}{:016x}", kHomePrefix, command.number),
-                                 .client = command.client,
-                                 .orders = OrdersWithoutWay(mission::kHomeWord),
-                                 .valid_for_s = kHomeWithin_s};
+  const mission::Mission mission{
+      .agent = agent,
+      .id = fmt::format("{}{:016x}", kHomePrefix, command.number),
+      .client = command.client,
+      .orders = OrdersWithoutWay({.to = std::string(mission::kHomeWord)}),
+      .valid_for_s = kHomeWithin_s};
   Take({&mission, 1}, now, now_unix_ms);
   const auto found = unanswered_.find(agent);
   if (found == unanswered_.end() || found->second.back().mission.id != mission.id) return;

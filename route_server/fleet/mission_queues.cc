@@ -104,7 +104,7 @@ void MissionRegistry::TellQueues() {
 void MissionRegistry::NoteWaited(Waiting& record) {
   const auto going = mission::GoingIn(record.mission.orders);
   if (!going || !check_way_) return;
-  const std::string orders = OrdersWithoutWay(going->to);
+  const std::string orders = OrdersWithoutWay(*going);
   if (record.mission.orders == orders) return;
   const auto stored = store_->Amend(record.mission.agent, record.mission.id, orders);
   NoteStored(stored);
@@ -113,7 +113,7 @@ void MissionRegistry::NoteWaited(Waiting& record) {
 
 bool MissionRegistry::PlanAnew(const Waiting& record, std::int64_t now_unix_ms) {
   const auto going = mission::GoingIn(record.mission.orders);
-  if (!going || record.mission.orders != OrdersWithoutWay(going->to)) return true;
+  if (!going || record.mission.orders != OrdersWithoutWay(*going)) return true;
   const Result<bool> found =
       check_way_ ? check_way_(record.mission.agent, going->to)
                  : Fail(ErrorCode::kUnavailable, "this server knows no network of routes");

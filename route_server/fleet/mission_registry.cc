@@ -32,7 +32,7 @@ bool AreSame(const std::string& orders, const std::string& others) {
   const auto going = mission::GoingIn(orders);
   const auto other = mission::GoingIn(others);
   if (!going || !other || going->to != other->to) return false;
-  const std::string without = OrdersWithoutWay(going->to);
+  const std::string without = OrdersWithoutWay(*going);
   return going->way > 1 || other->way > 1 || orders == without || others == without;
 }
 

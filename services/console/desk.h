@@ -21,6 +21,7 @@
 #include "services/console/fleet_state.h"
 #include "services/exchange/route_exchange.h"
 #include "services/fleet/now_client.h"
+#include "services/fleet/photo_client.h"
 #include "services/http/metrics_text.h"
 
 namespace trailcast::console {
@@ -107,6 +108,9 @@ class Desk {
   // the picture. Returns null if the robot did not answer. Fails with kUnavailable if too many
   // cameras are looked through at once.
   [[nodiscard]] Result<std::shared_ptr<const exchange::Snapshot>> Look(const AgentId& robot);
+
+  // Returns a photo's JPEG, piece by piece from its server.
+  [[nodiscard]] Result<std::vector<std::uint8_t>> Photo(const fleet::KnownPhoto& known);
 
   struct News {
     std::uint64_t number = 0;  // counts up from 1

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "services/base/result.h"
 #include "services/console/driving.h"
@@ -25,7 +26,9 @@ struct SendBody {
   std::string id;  // empty if it is to be drawn
   std::uint32_t valid_s = 600;
   bool goes_on = false;
-  bool unheard = false;  // also to a robot that nobody has heard of
+  bool unheard = false;                 // also to a robot that nobody has heard of
+  double photo_every_m = 0.0;           // 0 for none
+  std::vector<std::string> photo_at{};  // ROUTE@METRES, or names
 };
 [[nodiscard]] Result<SendBody> ReadSend(const std::string& body);
 

@@ -10,6 +10,7 @@
 #include "services/console/network_query.h"
 #include "services/console/runs_query.h"
 #include "services/mission/mission.h"
+#include "services/photos/photo.h"
 #include "services/route/route_query.h"
 
 namespace trailcast::console {
@@ -38,6 +39,14 @@ struct ChangesQuery {
 
 // Reads the parameters of GET /api/runs.
 [[nodiscard]] Result<RunsQuery> ReadRunsQuery(const Parameters& parameters);
+
+// This asks for a page of photos.
+struct PhotosQuery {
+  photos::PhotoQuery of{};
+  std::uint32_t first = 0;  // photo of the page
+};
+// Reads the parameters of GET /api/photos.
+[[nodiscard]] Result<PhotosQuery> ReadPhotosQuery(const Parameters& parameters);
 
 // Reads the parameters of GET /api/network.
 [[nodiscard]] Result<NetworkQuery> ReadNetworkQuery(const Parameters& parameters);

@@ -9,6 +9,7 @@
 
 #include "services/base/result.h"
 #include "services/console/access.h"
+#include "services/console/album.h"
 #include "services/console/atlas.h"
 #include "services/console/command_counts.h"
 #include "services/console/desk.h"
@@ -21,6 +22,7 @@
 namespace trailcast::console {
 
 class Runs;
+struct SendBody;
 
 // This serves the page and openapi.yaml's API over HTTP.
 class Web {
@@ -51,11 +53,13 @@ class Web {
   void Stream(const httplib::Request& request, httplib::Response& response);
   void Tell(exchange::NowOrder order, const fleet::NowTarget& target,
             const httplib::Request& request, httplib::Response& response);
+  [[nodiscard]] Result<std::string> OrdersOf(const SendBody& body);
   void Send(const std::string& robot, const httplib::Request& request, httplib::Response& response);
 
   Desk& desk_;
   Access access_;
   NetworkWatch network_;
+  Album album_;
   std::optional<Transfers> transfers_;
   http::Door door_;
   std::atomic<int> streams_{0};

@@ -418,6 +418,31 @@ struct StoreSummary {
   bool operator==(const StoreSummary&) const = default;
 };
 
+// `trailcast/photos` has a piece of a photo that a robot took on a mission: from the robot to the
+// server that it hears, and from a server to an operator who has asked (photos/photo.h).
+struct PhotoPiece {
+  AgentId holder{};  // the sender
+  AgentId client{};  // the receiver
+  std::string photo{};
+  std::string words{};  // what is known of it, one line
+  std::uint32_t offset = 0;
+  std::vector<std::uint8_t> bytes{};
+  std::string error{};  // why there are none, for people
+  bool operator==(const PhotoPiece&) const = default;
+};
+
+// `trailcast/photo_requests` asks for a photo from a byte on. A server says so of each piece that
+// it has taken from a robot and, at last, that it keeps the photo.
+struct PhotoRequest {
+  AgentId client{};
+  AgentId holder{};
+  std::string photo{};
+  std::uint32_t offset = 0;
+  bool kept = false;      // it is on the client's disk
+  std::string refusal{};  // why the client does not take it, for people
+  bool operator==(const PhotoRequest&) const = default;
+};
+
 // This is not a topic: a peer's agent has gone, since its liveliness ended or it said good-bye.
 struct AgentGone {
   AgentId agent{};
@@ -430,7 +455,8 @@ using AnyMessage =
                  CatalogReply, AgentStatus, RouteEditRequest, Fleet, RouteFollowers, NowCommand,
                  NowAnswer, mission::Mission, mission::Report, MissionRequest, MissionReply,
                  DriveCommand, SnapshotRequest, Snapshot, NetworkEdit, NetworkRequest, NetworkReply,
-                 FollowedSections, ReachRequest, ReachReport, StoreSummary, AgentGone>;
+                 FollowedSections, ReachRequest, ReachReport, StoreSummary, PhotoPiece,
+                 PhotoRequest, AgentGone>;
 
 // This is one of these types. One source file makes its copies; otherwise each file that hands
 // messages on would make its own for two dozen types, which dominates compile times.

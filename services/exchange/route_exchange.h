@@ -39,6 +39,8 @@ enum class Topic : std::uint8_t {
   kReachRequests,
   kReachReports,
   kStores,
+  kPhotos,
+  kPhotoRequests,
 };
 
 struct TopicUse {
@@ -74,6 +76,7 @@ struct TopicUse {
 [[nodiscard]] TopicUse HistoryTopics();     // asks what became of missions
 [[nodiscard]] TopicUse DriverTopics();      // drives a robot that teaches
 [[nodiscard]] TopicUse SnapshotTopics();    // looks through robots' cameras
+[[nodiscard]] TopicUse PhotoTopics();       // fetches photos from servers
 [[nodiscard]] TopicUse NetworkTopics();     // asks for paths over routes
 [[nodiscard]] TopicUse JoinerTopics();      // joins routes
 [[nodiscard]] TopicUse ReachTopics();       // asks all agents whom they hear

@@ -9,7 +9,7 @@
 
 namespace trailcast::exchange {
 
-inline constexpr std::size_t kTopics = static_cast<std::size_t>(Topic::kStores) + 1;
+inline constexpr std::size_t kTopics = static_cast<std::size_t>(Topic::kPhotoRequests) + 1;
 // Each topic has a type of message. AgentGone has no topic.
 static_assert(std::variant_size_v<AnyMessage> == kTopics + 1);
 

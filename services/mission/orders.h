@@ -32,6 +32,9 @@ namespace trailcast::mission {
 // and before a narrow place they have
 //   wait lane                until a server has sent the mission without it ('admitted'); until
 //                            then, 'queued' says which robots it waits for
+// Before a mission's first order, and after 'goto PLACE [way N ..]', may stand
+//   photo [every METRES] [at [NAME=]ROUTE[@REVISION]@METRES ...]   pictures that it takes on its
+//   way
 struct Task {
   enum class Kind : std::uint8_t { kFollow, kWait, kTeach, kTurn, kWaitWay, kWaitLane };
   Kind kind = Kind::kFollow;
@@ -45,6 +48,23 @@ struct Task {
   double turn_rad = 0.0;            // to the left
   std::vector<std::string> tags{};  // for the taught route, in any order
 };
+
+// A place on a route where a robot takes a picture.
+struct PhotoPlace {
+  std::string name{};  // what people call it; empty if they do not
+  route::RouteRef route{};
+  double along_m = 0.0;
+};
+
+// The pictures that a robot takes on its mission, with at least one place or a distance.
+struct PhotoWish {
+  // At each multiple of this along each route, from its beginning, so that all missions take
+  // theirs at the same places; 0 for none.
+  double every_m = 0.0;
+  std::vector<PhotoPlace> at{};
+  [[nodiscard]] bool any() const { return every_m > 0.0 || !at.empty(); }
+};
+inline constexpr std::size_t kMostPhotoPlaces = 16;
 
 // As a robot's destination this means the nearest place that is a home, unless a place is called
 // so.
@@ -62,6 +82,7 @@ struct Going {
   std::uint32_t way = 1;  // counts the paths that it was sent
   Why why = Why::kReplanned;
   std::string because{};  // for people; empty for the first path
+  PhotoWish photos{};     // on its way there
 };
 
 // Fails with kInvalidArgument, which has the word that was not understood and what was expected.
@@ -73,6 +94,11 @@ struct Going {
 // Returns nothing for orders that are no path to a place, or are not understood.
 [[nodiscard]] std::optional<Going> GoingIn(std::string_view orders);
 
+// Returns what pictures the orders ask for, which are none if they are not understood.
+[[nodiscard]] PhotoWish PhotosIn(std::string_view orders);
+// Parses "[NAME=]ROUTE[@REVISION]@METRES".
+[[nodiscard]] Result<PhotoPlace> ParsePhotoPlace(std::string_view word);
+
 // Returns the routes that the orders name, or none if the orders are not understood.
 [[nodiscard]] std::set<std::string> RoutesIn(std::string_view orders);
 
@@ -80,5 +106,7 @@ struct Going {
 [[nodiscard]] std::string ToText(const Task& task);
 [[nodiscard]] std::string ToText(std::span<const Task> tasks);
 [[nodiscard]] std::string ToText(const Going& going, std::span<const Task> tasks);
+[[nodiscard]] std::string ToText(const PhotoPlace& place);
+[[nodiscard]] std::string ToText(const PhotoWish& wish);  // "photo every 5 at dock=hall@12"
 
 }  // namespace trailcast::mission

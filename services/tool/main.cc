@@ -24,6 +24,7 @@ constexpr const char* kMainExamples =
     "  trailcast network join hall@12 office@0   # routes become a network\n"
     "  trailcast send robot2 goto office@8    # the best way over it\n"
     "  trailcast snapshot robot2                # what its camera sees, as a picture\n"
+    "  trailcast photos --place dock          # what robots photographed there on missions\n"
     "  trailcast pause robot2                 # and resume, cancel, stop, release: robots at work\n"
     "  trailcast keys init                    # who may take part, and as what: DDS Security\n"
     "  trailcast doctor                       # is this machine fit to share routes?\n"
@@ -54,6 +55,7 @@ int Run(int argc, char** argv) {
                                 trailcast::tool::AddFleetCommand(app, common),
                                 trailcast::tool::AddReachCommand(app, common),
                                 trailcast::tool::AddSnapshotCommand(app, common),
+                                trailcast::tool::AddPhotosCommand(app, common),
                                 trailcast::tool::AddNetworkCommand(app, common),
                                 trailcast::tool::AddKeysCommand(app),
                                 trailcast::tool::AddDoctorCommand(app, common),

@@ -94,6 +94,10 @@ Message ProbeFor(Topic topic) {
       return exchange::ReachReport{.agent = kProbe, .client = kProbe};
     case Topic::kStores:
       return exchange::StoreSummary{.server = kProbe};
+    case Topic::kPhotos:
+      return exchange::PhotoPiece{.holder = kProbe, .client = kProbe, .photo = "probe"};
+    case Topic::kPhotoRequests:
+      return exchange::PhotoRequest{.client = kProbe, .holder = kProbe, .photo = "probe"};
     case Topic::kAgents:
       break;
   }
@@ -132,6 +136,8 @@ bool IsProbe(const Message& message) {
     AgentId operator()(const exchange::ReachRequest& m) { return m.client; }
     AgentId operator()(const exchange::ReachReport& m) { return m.agent; }
     AgentId operator()(const exchange::StoreSummary& m) { return m.server; }
+    AgentId operator()(const exchange::PhotoPiece& m) { return m.holder; }
+    AgentId operator()(const exchange::PhotoRequest& m) { return m.client; }
     AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
   };
   return std::visit(Sender(), message) == kProbe;

@@ -217,6 +217,25 @@ TEST_P(RouteExchangeContract, CarriesTheLargestSnapshot) {
                   Topic::kSnapshots);
 }
 
+TEST_P(RouteExchangeContract, CarriesTheLargestPieceOfAPhoto) {
+  ExpectRoundTrip(exchange::PhotoPiece{.holder = AgentId("r"),
+                                       .client = AgentId("s"),
+                                       .photo = "4f2a",
+                                       .words = std::string(exchange::kMaxLineBytes, 'w'),
+                                       .offset = exchange::kMaxPhotoBytes,
+                                       .bytes = std::vector<std::uint8_t>(
+                                           exchange::kMaxPhotoPieceBytes, std::uint8_t{0xA5}),
+                                       .error = "none"},
+                  Topic::kPhotos);
+  ExpectRoundTrip(exchange::PhotoRequest{.client = AgentId("s"),
+                                         .holder = AgentId("r"),
+                                         .photo = "4f2a",
+                                         .offset = 7,
+                                         .kept = true,
+                                         .refusal = "full"},
+                  Topic::kPhotoRequests);
+}
+
 TEST_P(RouteExchangeContract, CarriesWhoHearsWhom) {
   ExpectRoundTrip(exchange::ReachRequest{AgentId("o"), ~0ULL, true, AgentId("s")},
                   Topic::kReachRequests);

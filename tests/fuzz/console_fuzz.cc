@@ -109,6 +109,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const exchange::NetworkRequest request{AgentId("desk"), 1, *question, 0};
     Require(exchange::CheckBounds(request).has_value(), "a way may be asked for");
   }
+  if (const auto photos = console::ReadPhotosQuery(parameters)) {
+    const auto again = photos::ParsePhotoQuery(ToText(photos->of));
+    Require(again.has_value(), "a question about photos is understood by servers");
+  }
+  if (const auto photo = photos::ParsePhoto(body)) {
+    const auto again = photos::ParsePhoto(ToText(*photo));
+    Require(again && ToText(*again) == ToText(*photo), "a photo is read as it is written");
+  }
   if (const auto words = console::ReadNetworkEdit(body)) {
     const exchange::NetworkEdit change{AgentId("desk"), 1, *words};
     Require(exchange::CheckBounds(change).has_value(), "a change may be published");

@@ -173,6 +173,25 @@ class Samples {
     wire.marked = Octet();
     wire.detail = Text();
   }
+  void Fill(trailcast_wire_PhotoPiece& wire) {
+    wire.holder = Name();
+    wire.client = Name();
+    wire.photo = Name();
+    wire.words = Text();
+    wire.offset = input_.ConsumeIntegral<std::uint32_t>();
+    picture_ = input_.ConsumeBytes<std::uint8_t>(Count());
+    wire.bytes._buffer = picture_.data();
+    wire.bytes._length = static_cast<std::uint32_t>(picture_.size());
+    wire.error = Text();
+  }
+  void Fill(trailcast_wire_PhotoRequest& wire) {
+    wire.client = Name();
+    wire.holder = Name();
+    wire.photo = Name();
+    wire.offset = input_.ConsumeIntegral<std::uint32_t>();
+    wire.kept = Octet();
+    wire.refusal = Text();
+  }
   void Fill(trailcast_wire_NetworkEdit& wire) {
     wire.client = Name();
     wire.request = input_.ConsumeIntegral<std::uint64_t>();
@@ -571,6 +590,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case Topic::kStores:
       FillAndTakeIn<trailcast_wire_StoreSummary>(topic, input);
+      break;
+    case Topic::kPhotos:
+      FillAndTakeIn<trailcast_wire_PhotoPiece>(topic, input);
+      break;
+    case Topic::kPhotoRequests:
+      FillAndTakeIn<trailcast_wire_PhotoRequest>(topic, input);
       break;
   }
   return 0;

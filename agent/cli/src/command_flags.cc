@@ -218,6 +218,16 @@ void AddServeOptions(CLI::App& command, ServeCommand& serve) {
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str()
       ->needs(logs);
+  command
+      .add_option("--photos", serve.photos,
+                  "Folder for the photos that its missions ask for, until a server has them; made "
+                  "if missing; default: beside the store")
+      ->check(!CLI::ExistingFile);
+  command
+      .add_option("--photos-mb", serve.photos_mb,
+                  "Megabytes that the photos may have: the oldest make room")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
   AddFollowing(command, serve.replay, DeviceUse::kOnDuty);
   SimulatedRun& simulated = serve.replay.device.simulated;
   command

@@ -15,6 +15,7 @@
 #include "agent/teach/teachings.h"
 #include "services/base/angles.h"
 #include "services/base/time.h"
+#include "services/photos/photo_folder.h"
 #include "services/program/open_exchange.h"
 #include "services/program/output_file.h"
 #include "services/program/radio.h"
@@ -216,6 +217,14 @@ Result<int> RunServe(const CommandOptions& options, const ServeCommand& serve) {
   auto exchange = program::OpenExchange(options.common, program::WithAgents(std::move(use)));
   if (!exchange) return tl::unexpected(exchange.error());
   duty.vitals = VitalsOf(*opened->device, options);
+  const auto photo_folder = photos::PhotoFolder::Open(
+      serve.photos.empty() ? BesideStore(options, "photos") : serve.photos,
+      static_cast<std::uint64_t>(1e6 * serve.photos_mb));
+  if (photo_folder) {
+    duty.photo_folder = photo_folder->get();
+  } else {
+    spdlog::error("{}", photo_folder.error().message);
+  }
   if (auto served = ServeOnDuty(*opened->device, duty, std::move(*exchange)); !served) {
     return tl::unexpected(served.error());
   }

@@ -65,6 +65,8 @@ struct ServeCommand {
   ReplayCommand replay;  // how it follows on missions
   RunLogsOptions logs;
   double logs_mb = 500.0;
+  std::string photos;  // folder; empty for one beside the store
+  double photos_mb = 500.0;
 };
 
 // Add the flags of the program and of its commands, which fill the structs.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@
 #include "agent/link/lasting_exchange.h"
 #include "agent/link/mission_handler.h"
 #include "agent/link/now_handler.h"
+#include "agent/link/photo_sender.h"
+#include "agent/photos/photo_taker.h"
 #include "agent/teach/teleoperation.h"
 #include "services/base/mailbox.h"
 #include "services/program/presence.h"
@@ -69,6 +72,7 @@ class Duty {
   [[nodiscard]] std::vector<std::string> RoutesInView();
   [[nodiscard]] std::vector<std::string> AskWhatIsInView(const route::View& view);
   void RefreshVisited();
+  [[nodiscard]] std::string PhotosText() const;
   void Teach(const mission::Task& task);
   [[nodiscard]] ScoutOptions ScoutFor(const mission::Task& task);
   void FindUndelivered();
@@ -85,6 +89,12 @@ class Duty {
   NowHandler now_handler_;
   FollowedNote followed_note_;
   MissionHandler mission_handler_;
+  std::optional<PhotoTaker> photo_taker_;
+  std::optional<PhotoSender> photo_sender_;
+  // The photos of its mission that this process has taken, and the places among them, in words.
+  int photos_taken_ = 0;
+  std::set<std::string> photographed_;
+  bool photos_before_ = false;  // an earlier process has begun its mission
   std::unique_ptr<exchange::RouteExchange> own_visit_;
   program::Presence presence_;
   std::uint64_t instance_ = 0;  // of this process, once the name is claimed

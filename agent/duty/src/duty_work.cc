@@ -1,5 +1,6 @@
 // This part of Duty does the work: one order of the mission after the other.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -45,6 +46,8 @@ void Duty::Work() {
   } else if (Held()) {
     if (told_until_) told_until_ = steady_clock::now() + kToldWithin;
     TellState(State::kPaused, now_handler_.hold().text);
+  } else if (mission_handler_.current()->photos.any() && !photo_taker_) {
+    End(State::kRefused, "it is to take photos, and its agent keeps none: its log says why");
   } else if (relocalisation_.looks()) {
     Relocalise();
   } else if (WaitsForWay()) {
@@ -229,6 +232,11 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
       spdlog::warn("{}", log.error().message);
     }
   }
+  std::optional<PhotoRun> photos;
+  if (current.photos.any()) {
+    follower.photos = &photos.emplace(*photo_taker_, current.photos, options_.agent,
+                                      current.mission.id, task.backwards);
+  }
   driven_ = task;
   task_after_ = TaskAfter();
   made_ready_.clear();
@@ -236,6 +244,10 @@ void Duty::Follow(const mission::Task& task, std::unique_ptr<NextPath> begun) {
   }
   follower.next = [this](const std::optional<OwnLens>& lens) { return PrepareNext(lens); };
   auto outcome = RunFollower(follower, std::move(begun));
+  if (photos) {
+    photos_taken_ += photos->taken();
+    photographed_.merge(photos->Photographed());
+  }
   if (!outcome || BeginsToRelocalise(*outcome)) return;
   const bool arrived = *outcome && (*outcome)->success;
   // It had already arrived when it heard that its order ends further on.
@@ -435,7 +447,27 @@ void Duty::Done(const std::string& what) {
   }
 }
 
-void Duty::End(State state, const std::string& why, mission::WaitsFor waits_for) {
+// Returns what there is of the photos that its mission asks for, for people.
+std::string Duty::PhotosText() const {
+  const auto& current = *mission_handler_.current();
+  if (!current.photos.any() || !photo_taker_) return "";
+  if (photos_before_) return fmt::format("{} photos since its agent started again", photos_taken_);
+  std::vector<std::string> missing;
+  for (const mission::PhotoPlace& place : current.photos.at) {
+    std::string words = ToText(place);
+    if (!photographed_.contains(words)) missing.push_back(std::move(words));
+  }
+  std::string text = fmt::format("{} photos", photos_taken_);
+  if (!missing.empty()) text += fmt::format(", none at {}", fmt::join(missing, ", "));
+  return text;
+}
+
+void Duty::End(State state, const std::string& told, mission::WaitsFor waits_for) {
+  const std::string photos = state == State::kRefused ? "" : PhotosText();
+  const std::string why = told.empty() || photos.empty() ? told + photos : told + "; " + photos;
+  photos_taken_ = 0;
+  photographed_.clear();
+  photos_before_ = false;
   last_ = fmt::format("mission {}: {}{}{}", mission_handler_.current()->mission.id,
                       mission::ToString(state), why.empty() ? "" : ": ", why);
   mission_handler_.Tell(state, why, waits_for);

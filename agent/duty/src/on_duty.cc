@@ -42,6 +42,10 @@ Duty::Duty(RobotDevice& device, const OnDutyOptions& options,
       own_visit_(exchange_.Visit()),
       presence_(*own_visit_, FreeStatus(options.agent)) {
   presence_.FeelBy(options.vitals);
+  if (options.photo_folder != nullptr) {
+    photo_taker_.emplace(*options.photo_folder);
+    photo_sender_.emplace(options.agent, *options.photo_folder);
+  }
   exchange_.Tend({[this](const exchange::Message& message) { Hear(message); },
                   [this](exchange::RouteExchange& to) { Say(to); },
                   [this](const exchange::AgentStatus& status) { SawStatus(status); }});
@@ -52,6 +56,7 @@ void Duty::Hear(const exchange::Message& message) {
   if (mission_handler_.TakeAmended()) Reroute();
   if (claimed_) presence_.Handle(message);
   if (question_) question_->Hear(message);
+  if (photo_sender_) photo_sender_->Handle(message, steady_clock::now());
   if (following_) return;
   const bool teaches = teleoperation_ != nullptr;
   now_handler_.Works(mission_handler_.current().has_value());
@@ -70,6 +75,9 @@ void Duty::Say(exchange::RouteExchange& to) {
   const auto now = steady_clock::now();
   // Anything that cannot be sent is repeated, or asked for again.
   (void)exchange::PublishAll(to, mission_handler_.Due(now, presence_.server().has_value()));
+  if (photo_sender_) {
+    (void)exchange::PublishAll(to, photo_sender_->Due(now, presence_.server()));
+  }
   TellNews();
   if (following_) return;
   (void)exchange::PublishAll(to, now_handler_.TakeAnswers());
@@ -83,6 +91,10 @@ void Duty::Say(exchange::RouteExchange& to) {
 
 void Duty::TellNews() {
   for (const std::string& line : mission_handler_.TakeNews()) spdlog::info("{}", line);
+  if (photo_taker_) {
+    for (const std::string& line : photo_taker_->TakeNews()) spdlog::warn("{}", line);
+    for (const std::string& line : photo_sender_->TakeNews()) spdlog::warn("{}", line);
+  }
   if (following_) return;
   for (const std::string& line : now_handler_.TakeNews()) spdlog::warn("{}", line);
 }
@@ -171,6 +183,7 @@ Result<void> Duty::Run() {
   claimed_ = true;
   instance_ = presence_.status().instance;
   FindUndelivered();
+  photos_before_ = mission_handler_.current() && mission_handler_.current()->begun;
   if (const auto& current = mission_handler_.current();
       current && current->begun && current->kind() == mission::Task::Kind::kTeach) {
     End(State::kFailed,

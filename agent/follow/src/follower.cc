@@ -13,6 +13,7 @@
 #include "agent/follow/src/progress_watch.h"
 #include "agent/follow/src/stand.h"
 #include "agent/follow/src/yielding.h"
+#include "agent/photos/photo_taker.h"
 
 namespace trailcast::agent {
 namespace {
@@ -111,6 +112,7 @@ class Loop {
   [[nodiscard]] bool ChangesOver(const Observation& observation);
   [[nodiscard]] Result<bool> EndAt(double end_m);
   void ShowSnapshot(const ReplayStep& step);
+  void TakePhoto(const ReplayStep& step, const image::GrayImage& picture);
   void ShowWaiting();
   void Tell(const ReplayStep& step);
   void TellTrouble(const RobotDevice::Halt& halt);
@@ -298,6 +300,7 @@ Result<bool> Loop::Step(const Observation& observation) {
   told_ = step->command;
   link_.Report(*step);
   ShowSnapshot(*step);
+  TakePhoto(*step, observation.image);
   if (observation.unknown.distance_m > 0.0) {
     diagnosis_.Note("odometry", fmt::format("jumped: {:.2f} m may have been driven meanwhile",
                                             observation.unknown.distance_m));
@@ -397,6 +400,17 @@ void Loop::ShowSnapshot(const ReplayStep& step) {
     frame.turn_rad = step.turn_rad;
   }
   options_.snapshots->Show(std::move(frame));
+}
+
+// It comes after the command, too, and costs the next frame the time of a copy.
+void Loop::TakePhoto(const ReplayStep& step, const image::GrayImage& picture) {
+  if (options_.photos == nullptr || !step.along_m || step.saw_nothing) return;
+  const bool arrived = step.state == ReplayState::kArrived;
+  const bool knows_place =
+      arrived || step.state == ReplayState::kFollowing || step.state == ReplayState::kBlind;
+  if (!knows_place) return;
+  options_.photos->Pass({*path_.route(), *step.along_m, step.trust == Trust::kSure, arrived},
+                        picture);
 }
 
 void Loop::ShowWaiting() {

@@ -98,8 +98,11 @@ Result<void> MissionHandler::Load() {
 }
 
 void MissionHandler::Begin(const Kept& kept, std::vector<mission::Task> tasks) {
-  current_ = Current{
-      .mission = kept.mission, .tasks = std::move(tasks), .task = kept.last.task, .lap = kept.lap};
+  current_ = Current{.mission = kept.mission,
+                     .tasks = std::move(tasks),
+                     .task = kept.last.task,
+                     .lap = kept.lap,
+                     .photos = mission::PhotosIn(kept.mission.orders)};
   if (auto going = mission::GoingIn(kept.mission.orders)) current_->going = *std::move(going);
 }
 

@@ -28,8 +28,8 @@ constexpr std::uint32_t kRevisionsAsked = 100;
 exchange::TopicUse ConsoleTopics() {
   return {.write = {Topic::kNow, Topic::kMissions, Topic::kMissionRequests, Topic::kCatalogRequests,
                     Topic::kRouteEdits, Topic::kDrives, Topic::kSnapshotRequests,
-                    Topic::kNetworkEdits, Topic::kNetworkRequests},
-          .read = {Topic::kSnapshots, Topic::kNowAnswers, Topic::kMissionStates,
+                    Topic::kNetworkEdits, Topic::kNetworkRequests, Topic::kPhotoRequests},
+          .read = {Topic::kSnapshots, Topic::kPhotos, Topic::kNowAnswers, Topic::kMissionStates,
                    Topic::kMissionReplies, Topic::kCatalogReplies, Topic::kNetworkReplies},
           // These are repeated all the time, and acknowledging each would cost the radio as much
           // again.
@@ -38,9 +38,9 @@ exchange::TopicUse ConsoleTopics() {
 
 exchange::TopicUse LookingTopics() {
   return {.write = {Topic::kMissionRequests, Topic::kCatalogRequests, Topic::kSnapshotRequests,
-                    Topic::kNetworkRequests},
+                    Topic::kNetworkRequests, Topic::kPhotoRequests},
           .read = {Topic::kMissionReplies, Topic::kCatalogReplies, Topic::kSnapshots,
-                   Topic::kNetworkReplies},
+                   Topic::kPhotos, Topic::kNetworkReplies},
           .overhear = {Topic::kAgents}};
 }
 

@@ -89,6 +89,32 @@ class SendErrand final : public ErrandFor<mission::Report> {
   milliseconds timeout_;
 };
 
+// This fetches a photo, and asks for the next piece as soon as one has come.
+class PhotoErrand final : public ErrandFor<std::vector<std::uint8_t>> {
+ public:
+  // A photo of half a megabyte takes this long on a link of 50 kB/s.
+  static constexpr milliseconds kTimeout{10'000};
+
+  PhotoErrand(const AgentId& self, const fleet::KnownPhoto& known) : fetch_(self, known) {}
+
+  [[nodiscard]] std::vector<exchange::Message> Words() const override { return {fetch_.Asks()}; }
+  [[nodiscard]] milliseconds SayAgain() const override { return kAskErrandAgain; }
+  void Hear(const exchange::Message& message) override {
+    if (fetch_.Hear(message)) say_at = {};
+  }
+  [[nodiscard]] bool IsOver(milliseconds since) const override {
+    return fetch_.outcome().has_value() || since > kTimeout;
+  }
+
+ private:
+  [[nodiscard]] Result<std::vector<std::uint8_t>> Outcome() const override {
+    if (fetch_.outcome()) return *fetch_.outcome();
+    return Fail(ErrorCode::kUnavailable, "the route server that keeps the photo does not answer");
+  }
+
+  fleet::PhotoFetch fetch_;
+};
+
 // This is a mission's first step: it finds whether there is such a robot.
 class WhoErrand final : public ErrandFor<std::optional<Error>> {
  public:
@@ -316,6 +342,10 @@ Result<exchange::NetworkReply> Desk::Join(const std::string& words) {
   return CarryOut(
       std::make_shared<NetworkChange>(edit, options_.reply_within, ErrorCode::kConflict), false,
       options_.reply_within);
+}
+
+Result<std::vector<std::uint8_t>> Desk::Photo(const fleet::KnownPhoto& known) {
+  return CarryOut(std::make_shared<PhotoErrand>(self_, known), false, PhotoErrand::kTimeout);
 }
 
 Result<http::MetricsText> Desk::Measure() {

@@ -53,6 +53,8 @@ constexpr std::array kTable = {
     Row{T::kReachRequests,    {false,    16,        kForever, /*best_effort=*/true}},
     Row{T::kReachReports,     {false,    16,        kForever}},
     Row{T::kStores,           {false,    64,        kForever}},
+    Row{T::kPhotos,           {false,    16,        kForever}},
+    Row{T::kPhotoRequests,    {false,    16,        kForever}},
 };
 // clang-format on
 

@@ -449,6 +449,26 @@ Message From(const trailcast_wire_StoreSummary& wire) {
   return summary;
 }
 
+Message From(const trailcast_wire_PhotoPiece& wire) {
+  const auto bytes = Elements(wire.bytes);
+  return PhotoPiece{.holder = AgentId(Text(wire.holder)),
+                    .client = AgentId(Text(wire.client)),
+                    .photo = Text(wire.photo),
+                    .words = Text(wire.words),
+                    .offset = wire.offset,
+                    .bytes = {bytes.begin(), bytes.end()},
+                    .error = Text(wire.error)};
+}
+
+Message From(const trailcast_wire_PhotoRequest& wire) {
+  return PhotoRequest{.client = AgentId(Text(wire.client)),
+                      .holder = AgentId(Text(wire.holder)),
+                      .photo = Text(wire.photo),
+                      .offset = wire.offset,
+                      .kept = wire.kept != 0,
+                      .refusal = Text(wire.refusal)};
+}
+
 Message Copy(Topic topic, const void* sample) {
   switch (topic) {
     case Topic::kRoutes:
@@ -501,6 +521,10 @@ Message Copy(Topic topic, const void* sample) {
       return From(*static_cast<const trailcast_wire_ReachReport*>(sample));
     case Topic::kStores:
       return From(*static_cast<const trailcast_wire_StoreSummary*>(sample));
+    case Topic::kPhotos:
+      return From(*static_cast<const trailcast_wire_PhotoPiece*>(sample));
+    case Topic::kPhotoRequests:
+      return From(*static_cast<const trailcast_wire_PhotoRequest*>(sample));
     case Topic::kAgents:
       break;
   }

@@ -25,6 +25,12 @@ void Lend(std::vector<Element>& elements, Sequence& sequence) {
   sequence._release = false;
 }
 
+template <typename Sequence>
+void LendBytes(const std::vector<std::uint8_t>& bytes, Sequence& sequence) {
+  sequence._buffer = const_cast<std::uint8_t*>(bytes.data());
+  sequence._length = sequence._maximum = static_cast<std::uint32_t>(bytes.size());
+}
+
 // Keeps the arrays of texts that a sample points to until it was written.
 class TextArrays {
  public:
@@ -447,9 +453,7 @@ Result<void> With(const Snapshot& message, const UseSample& use) {
   sample.agent = Lend(message.agent.value());
   sample.client = Lend(message.client.value());
   sample.request = message.request;
-  sample.picture._buffer = const_cast<std::uint8_t*>(message.picture.data());
-  sample.picture._length = sample.picture._maximum =
-      static_cast<std::uint32_t>(message.picture.size());
+  LendBytes(message.picture, sample.picture);
   sample.marked = message.marked ? 1 : 0;
   sample.detail = Lend(message.detail);
   return use(&sample);
@@ -530,6 +534,28 @@ Result<void> With(const ReachReport& message, const UseSample& use) {
   return use(&sample);
 }
 
+Result<void> With(const PhotoPiece& message, const UseSample& use) {
+  trailcast_wire_PhotoPiece sample{};
+  sample.holder = Lend(message.holder.value());
+  sample.client = Lend(message.client.value());
+  sample.photo = Lend(message.photo);
+  sample.words = Lend(message.words);
+  sample.offset = message.offset;
+  LendBytes(message.bytes, sample.bytes);
+  sample.error = Lend(message.error);
+  return use(&sample);
+}
+
+Result<void> With(const PhotoRequest& message, const UseSample& use) {
+  const trailcast_wire_PhotoRequest sample{.client = Lend(message.client.value()),
+                                           .holder = Lend(message.holder.value()),
+                                           .photo = Lend(message.photo),
+                                           .offset = message.offset,
+                                           .kept = static_cast<std::uint8_t>(message.kept ? 1 : 0),
+                                           .refusal = Lend(message.refusal)};
+  return use(&sample);
+}
+
 Result<void> With(const StoreSummary& message, const UseSample& use) {
   std::vector<trailcast_wire_StoreEntry> entries;
   entries.reserve(message.entries.size());
@@ -578,7 +604,9 @@ const dds_topic_descriptor_t& TypeOf(Topic topic) {
                                                              &trailcast_wire_FollowedSections_desc,
                                                              &trailcast_wire_ReachRequest_desc,
                                                              &trailcast_wire_ReachReport_desc,
-                                                             &trailcast_wire_StoreSummary_desc};
+                                                             &trailcast_wire_StoreSummary_desc,
+                                                             &trailcast_wire_PhotoPiece_desc,
+                                                             &trailcast_wire_PhotoRequest_desc};
   return *kTypes[static_cast<std::size_t>(topic)];
 }
 

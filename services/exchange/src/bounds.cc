@@ -411,6 +411,32 @@ Result<void> Check(const StoreSummary& message) {
   return {};
 }
 
+Result<void> CheckPhoto(const AgentId& holder, const AgentId& client, const std::string& photo,
+                        std::uint32_t offset) {
+  if (auto ok = CheckName("holder", holder.value()); !ok) return ok;
+  if (auto ok = CheckName("client", client.value()); !ok) return ok;
+  if (auto ok = CheckName("photo", photo); !ok) return ok;
+  return CheckCount("place in a photo", offset, kMaxPhotoBytes);
+}
+
+Result<void> Check(const PhotoPiece& message) {
+  if (auto ok = CheckPhoto(message.holder, message.client, message.photo, message.offset); !ok) {
+    return ok;
+  }
+  if (auto ok = CheckText("words", message.words, kMaxLineBytes); !ok) return ok;
+  if (auto ok = CheckCount("bytes of a photo", message.bytes.size(), kMaxPhotoPieceBytes); !ok) {
+    return ok;
+  }
+  return CheckText("error", message.error, kMaxLineBytes);
+}
+
+Result<void> Check(const PhotoRequest& message) {
+  if (auto ok = CheckPhoto(message.client, message.holder, message.photo, message.offset); !ok) {
+    return ok;
+  }
+  return CheckText("refusal", message.refusal, kMaxLineBytes);
+}
+
 Result<void> Check(const AgentGone& message) { return CheckName("agent", message.agent.value()); }
 
 }  // namespace

@@ -38,17 +38,18 @@ TopicUse FollowerTopics() {
 }
 
 TopicUse ServerTopics() {
-  return {.write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts,
-                    Topic::kCatalogReplies, Topic::kAgents, Topic::kFleet, Topic::kNow,
-                    Topic::kMissions, Topic::kMissionStates, Topic::kStores},
-          .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kStores,
-                   Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits, Topic::kNow,
-                   Topic::kNowAnswers, Topic::kMissions, Topic::kMissionStates,
-                   Topic::kMissionRequests, Topic::kNetworkEdits, Topic::kNetworkRequests,
-                   Topic::kFollowed, Topic::kReachRequests, Topic::kReachReports},
-          .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers,
-                           Topic::kMissionReplies, Topic::kNetworkReplies, Topic::kReachRequests,
-                           Topic::kReachReports}};
+  return {
+      .write = {Topic::kRoutes, Topic::kSegmentRequests, Topic::kReceipts, Topic::kCatalogReplies,
+                Topic::kAgents, Topic::kFleet, Topic::kNow, Topic::kMissions, Topic::kMissionStates,
+                Topic::kStores},
+      .read = {Topic::kRoutes, Topic::kSegments, Topic::kSegmentRequests, Topic::kStores,
+               Topic::kCatalogRequests, Topic::kAgents, Topic::kRouteEdits, Topic::kNow,
+               Topic::kNowAnswers, Topic::kMissions, Topic::kMissionStates, Topic::kMissionRequests,
+               Topic::kNetworkEdits, Topic::kNetworkRequests, Topic::kFollowed,
+               Topic::kReachRequests, Topic::kReachReports, Topic::kPhotos, Topic::kPhotoRequests},
+      .write_rarely = {Topic::kSegments, Topic::kNeighbours, Topic::kNowAnswers,
+                       Topic::kMissionReplies, Topic::kNetworkReplies, Topic::kReachRequests,
+                       Topic::kReachReports, Topic::kPhotos, Topic::kPhotoRequests}};
 }
 
 TopicUse OperatorTopics() {
@@ -75,6 +76,8 @@ TopicUse OnDutyTopics() {
   use.write.push_back(Topic::kMissionStates);
   use.read.push_back(Topic::kSnapshotRequests);
   use.write_rarely.push_back(Topic::kSnapshots);
+  use.read.push_back(Topic::kPhotoRequests);  // from servers
+  use.write_rarely.push_back(Topic::kPhotos);
   return use;
 }
 
@@ -97,6 +100,8 @@ TopicUse DriverTopics() { return {.write = {Topic::kDrives}, .read = {}}; }
 TopicUse SnapshotTopics() {
   return {.write = {Topic::kSnapshotRequests}, .read = {Topic::kSnapshots}};
 }
+
+TopicUse PhotoTopics() { return {.write = {Topic::kPhotoRequests}, .read = {Topic::kPhotos}}; }
 
 TopicUse NetworkTopics() {
   return {.write = {Topic::kNetworkRequests}, .read = {Topic::kNetworkReplies}};
@@ -143,7 +148,9 @@ std::optional<Topic> TopicOf(const Message& message) {
                                        Topic::kFollowed,
                                        Topic::kReachRequests,
                                        Topic::kReachReports,
-                                       Topic::kStores};
+                                       Topic::kStores,
+                                       Topic::kPhotos,
+                                       Topic::kPhotoRequests};
   if (message.index() >= std::size(kInOrder)) return std::nullopt;
   return kInOrder[message.index()];
 }
@@ -210,6 +217,10 @@ const char* NameOf(Topic topic) {
       return "trailcast/reach_reports";
     case Topic::kStores:
       return "trailcast/stores";
+    case Topic::kPhotos:
+      return "trailcast/photos";
+    case Topic::kPhotoRequests:
+      return "trailcast/photo_requests";
   }
   return "unknown topic";
 }

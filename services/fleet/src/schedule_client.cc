@@ -4,14 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
-#include <map>
 #include <optional>
 #include <utility>
-#include <variant>
 
-#include "services/base/time.h"
-#include "services/fleet/draw.h"
+#include "services/fleet/src/ask_all.h"
 #include "services/program/json.h"
 
 namespace trailcast::fleet {
@@ -19,41 +15,6 @@ namespace {
 
 using program::Json;
 using std::chrono::milliseconds;
-using SteadyClock = std::chrono::steady_clock;
-
-// Other servers answer within this time of the first.
-constexpr milliseconds kOthersAnswer{1000};
-constexpr milliseconds kAskAllAgain{500};
-constexpr milliseconds kListen{100};
-
-using Replies = std::map<AgentId, exchange::NetworkReply>;
-
-// Returns the page from that line on of each server that answers.
-Replies AskForPage(exchange::RouteExchange& exchange, const AgentId& client, std::uint32_t first,
-                   std::size_t servers, milliseconds timeout) {
-  const exchange::NetworkRequest question{.client = client,
-                                          .request = DrawNumber(),
-                                          .words = std::string(schedule::kQuestion),
-                                          .first = first};
-  Replies replies;
-  auto until = SteadyClock::now() + timeout;
-  auto ask_at = SteadyClock::now();
-  while (SteadyClock::now() < until && replies.size() < servers) {
-    if (SteadyClock::now() >= ask_at) {
-      ask_at = SteadyClock::now() + kAskAllAgain;
-      (void)exchange.Publish(question);  // repeated if it could not be sent
-    }
-    for (exchange::Message& message : exchange.Take(kListen)) {
-      auto* reply = std::get_if<exchange::NetworkReply>(&message);
-      if (reply == nullptr || reply->client != client || reply->request != question.request) {
-        continue;
-      }
-      if (replies.empty()) until = std::min(until, SteadyClock::now() + kOthersAnswer);
-      replies.try_emplace(reply->server, std::move(*reply));
-    }
-  }
-  return replies;
-}
 
 std::string WhatBecame(const schedule::Listed& listed) {
   if (!listed.outcome.empty()) return "nobody was sent: " + listed.outcome;
@@ -113,36 +74,10 @@ Json ScheduleJson(const KnownSchedule& known) {
 
 Result<KnownSchedules> AskForSchedules(exchange::RouteExchange& exchange, const AgentId& client,
                                        milliseconds timeout) {
+  const auto lines = AskAllForLines(exchange, client, std::string(schedule::kQuestion), timeout);
+  if (!lines) return tl::unexpected(lines.error());
   KnownSchedules known;
-  std::map<AgentId, std::vector<std::string>> lines;
-  std::string refused;
-  std::uint32_t first = 0;
-  std::size_t servers = std::size_t{1} << 16U;  // nobody knows how many there are
-  while (servers > 0) {
-    Replies replies = AskForPage(exchange, client, first, servers, timeout);
-    std::size_t with_more = 0;
-    std::uint32_t next = 0;
-    for (auto& [server, reply] : replies) {
-      if (!reply.error.empty()) {
-        refused = fmt::format("server '{}' {}", server.value(), reply.error);
-        continue;
-      }
-      std::move(reply.lines.begin(), reply.lines.end(), std::back_inserter(lines[server]));
-      if (reply.next <= first) continue;
-      ++with_more;
-      next = std::max(next, reply.next);
-    }
-    servers = with_more;
-    first = next;
-  }
-  if (lines.empty() && !refused.empty()) return Fail(ErrorCode::kUnavailable, "{}", refused);
-  if (lines.empty()) {
-    return Fail(ErrorCode::kUnavailable,
-                "no route server answered within {:.1f} s: is trailcast-server running, with the "
-                "same domain, tag and network interface?",
-                Seconds(timeout));
-  }
-  for (const auto& [server, told] : lines) {
+  for (const auto& [server, told] : *lines) {
     known.servers.push_back(server);
     for (schedule::Listed& listed : schedule::ParseLines(told)) {
       known.schedules.push_back({server, std::move(listed)});

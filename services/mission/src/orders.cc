@@ -19,7 +19,8 @@ namespace {
 
 constexpr const char* kGrammar =
     "'follow ROUTE[@REVISION] [backwards] [FROM..TO] [laps N] [speed F]', 'teach ROUTE [TAG "
-    "...]', 'turn DEGREES' or 'wait SECONDS', one after the other";
+    "...]', 'turn DEGREES' or 'wait SECONDS', one after the other, and before the first of them "
+    "'photo [every METRES] [at PLACE ...]'";
 constexpr const char* kWay =
     "after 'goto PLACE [way N]' 'follow ROUTE FROM..TO' alone, and 'turn DEGREES' before one";
 constexpr const char* kQueued = "queued";
@@ -31,6 +32,8 @@ constexpr double kMostTurn_deg = 360.0;
 constexpr double kLongestWait_s = 7.0 * 24.0 * 3600.0;
 constexpr double kLeastSpeed = 0.1;
 constexpr double kMostSpeed = 3.0;
+constexpr double kLeastPhotoEvery_m = 0.2;
+constexpr std::string_view kPhoto = "photo";
 
 std::vector<std::string> Words(std::string_view text) {
   std::vector<std::string> words;
@@ -40,6 +43,10 @@ std::vector<std::string> Words(std::string_view text) {
     at = end;
   }
   return words;
+}
+
+std::string RefText(const route::RouteRef& route) {
+  return route.revision > 0 ? fmt::format("{}@{}", route.route, route.revision) : route.route;
 }
 
 bool BeginsAnOrder(const std::string& word) {
@@ -54,6 +61,10 @@ class Parser {
     if (Next() == "goto") {
       if (auto taken = Goto(); !taken) return tl::unexpected(taken.error());
     }
+    if (Next() == kPhoto) {
+      if (auto taken = Photos(); !taken) return tl::unexpected(taken.error());
+    }
+    if (going_) going_->photos = photos_;
     std::vector<Task> tasks;
     while (!rest().empty() && !TakeReason()) {
       auto task = Next() == "wait"    ? Wait()
@@ -69,6 +80,7 @@ class Parser {
   }
   // This is valid after All.
   [[nodiscard]] const std::optional<Going>& going() const { return going_; }
+  [[nodiscard]] const PhotoWish& photos() const { return photos_; }
 
  private:
   [[nodiscard]] Result<void> Goto() {
@@ -87,6 +99,27 @@ class Parser {
       going_->why = Take() == kQueued ? Going::Why::kQueued : Going::Why::kAdmitted;
     }
     return {};
+  }
+
+  [[nodiscard]] Result<void> Photos() {
+    (void)Take();
+    if (Next() == "every") {
+      (void)Take();
+      const std::string word = Take();
+      const auto every_m = ParseNumberWithin(word, kLeastPhotoEvery_m, route::kMaxLength_m);
+      if (!every_m) return Wrong(word, "metres from photo to photo, 0.2 or more");
+      photos_.every_m = *every_m;
+    }
+    while (Next() == "at") {
+      (void)Take();
+      auto place = ParsePhotoPlace(Take());
+      if (!place) return tl::unexpected(place.error());
+      if (photos_.at.size() == kMostPhotoPlaces) {
+        return Wrong(ToText(*place), "16 places for photos at most");
+      }
+      photos_.at.push_back(*std::move(place));
+    }
+    return photos_.any() ? Result<void>() : Wrong(Next(), "'every METRES' or 'at PLACE'");
   }
 
   // Takes the rest of the words as the reason.
@@ -213,6 +246,7 @@ class Parser {
   std::vector<std::string> words_;
   std::size_t at_ = 0;
   std::optional<Going> going_;
+  PhotoWish photos_;
 };
 
 }  // namespace
@@ -227,6 +261,33 @@ double TurnBefore(std::span<const Task> tasks, std::size_t task) {
 std::optional<Going> GoingIn(std::string_view orders) {
   Parser parser(orders);
   return parser.All() ? parser.going() : std::nullopt;
+}
+
+PhotoWish PhotosIn(std::string_view orders) {
+  Parser parser(orders);
+  return parser.All() ? parser.photos() : PhotoWish();
+}
+
+Result<PhotoPlace> ParsePhotoPlace(std::string_view word) {
+  const std::size_t is = word.find('=');
+  const std::string_view of = is == std::string_view::npos ? word : word.substr(is + 1);
+  const std::size_t at = of.rfind('@');
+  PhotoPlace place;
+  if (is != std::string_view::npos) place.name = word.substr(0, is);
+  const bool named = is == std::string_view::npos || IsValidName(place.name);
+  auto route = route::ParseRouteRef(std::string(of.substr(0, at)));
+  const auto along_m = at == std::string_view::npos
+                           ? std::nullopt
+                           : ParseNumberWithin(of.substr(at + 1), 0.0, route::kMaxLength_m);
+  if (!named || !route || !along_m) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "orders: '{}' was not understood: expected a place for a photo, as hall@12.5 or "
+                "dock=hall@12.5",
+                word);
+  }
+  place.route = *std::move(route);
+  place.along_m = *along_m;
+  return place;
 }
 
 std::set<std::string> RoutesIn(std::string_view orders) {
@@ -250,8 +311,7 @@ std::string ToText(const Task& task) {
     return fmt::format("teach {}{}{}", task.route.route, task.tags.empty() ? "" : " ",
                        fmt::join(task.tags, " "));
   }
-  std::string text = "follow " + task.route.route;
-  if (task.route.revision > 0) text += fmt::format("@{}", task.route.revision);
+  std::string text = "follow " + RefText(task.route);
   if (task.backwards) text += " backwards";
   if (task.from_m > 0.0 || task.to_m > 0.0) {
     const bool from_end = task.backwards && task.from_m == 0.0;
@@ -277,8 +337,21 @@ std::string ToText(const Going& going, std::span<const Task> tasks) {
   if (going.way > 1) text += fmt::format(" way {}", going.way);
   if (going.why == Going::Why::kQueued) text += fmt::format(" {}", kQueued);
   if (going.why == Going::Why::kAdmitted) text += fmt::format(" {}", kAdmitted);
+  if (going.photos.any()) text += fmt::format(" {}", ToText(going.photos));
   text += fmt::format(" {}", ToText(tasks));
   if (!going.because.empty()) text += " because " + going.because;
+  return text;
+}
+
+std::string ToText(const PhotoPlace& place) {
+  return fmt::format("{}{}{}@{:g}", place.name, place.name.empty() ? "" : "=", RefText(place.route),
+                     place.along_m);
+}
+
+std::string ToText(const PhotoWish& wish) {
+  std::string text(kPhoto);
+  if (wish.every_m > 0.0) text += fmt::format(" every {:g}", wish.every_m);
+  for (const PhotoPlace& place : wish.at) text += fmt::format(" at {}", ToText(place));
   return text;
 }
 

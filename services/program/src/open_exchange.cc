@@ -30,6 +30,7 @@ constexpr NewerTopic kNewerTopics[] = {
     {exchange::Topic::kFollowed, "robots told servers where they lose their path"},
     {exchange::Topic::kReachRequests, "members were asked whom they hear"},
     {exchange::Topic::kStores, "servers told each other what they hold"},
+    {exchange::Topic::kPhotoRequests, "robots took photos on missions"},
 };
 
 Result<security::MemberKeys> Keys(const CommonOptions& options, const exchange::TopicUse& use) {

@@ -35,6 +35,8 @@ struct AuthorIn {
   AgentId operator()(const exchange::ReachRequest& m) { return m.client; }
   AgentId operator()(const exchange::ReachReport& m) { return m.agent; }
   AgentId operator()(const exchange::StoreSummary& m) { return m.server; }
+  AgentId operator()(const exchange::PhotoPiece& m) { return m.holder; }
+  AgentId operator()(const exchange::PhotoRequest& m) { return m.client; }
   AgentId operator()(const exchange::AgentGone& m) { return m.agent; }
 };
 

@@ -90,6 +90,7 @@ TopicUse RightsOf(Role role) {
       use = Together(std::move(use), exchange::DriverTopics());
       use = Together(std::move(use), exchange::SnapshotTopics());
       use = Together(std::move(use), exchange::NetworkTopics());
+      use = Together(std::move(use), exchange::PhotoTopics());
       use = Together(std::move(use), exchange::JoinerTopics());
       use = Together(std::move(use), exchange::ReachTopics());
       std::erase(use.write, Topic::kAgents);  // operators are not agents
@@ -97,10 +98,12 @@ TopicUse RightsOf(Role role) {
     }
     case Role::kObserver:
       return Together(
-          Together(Together(Together(exchange::ObserverTopics(), exchange::HistoryTopics()),
-                            exchange::SnapshotTopics()),
-                   exchange::NetworkTopics()),
-          exchange::ReachTopics());
+          Together(
+              Together(Together(Together(exchange::ObserverTopics(), exchange::HistoryTopics()),
+                                exchange::SnapshotTopics()),
+                       exchange::NetworkTopics()),
+              exchange::ReachTopics()),
+          exchange::PhotoTopics());
   }
   return {};
 }

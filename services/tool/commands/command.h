@@ -41,6 +41,7 @@ inline int ComplainOfUsage(const CLI::App& app, const Error& error) {
 // These are pause, resume, cancel, stop and release.
 [[nodiscard]] std::vector<Command> AddNowCommands(CLI::App& parent,
                                                   const program::CommonOptions& common);
+[[nodiscard]] Command AddPhotosCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddRobotCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddScheduleCommand(CLI::App& parent, const program::CommonOptions& common);
 [[nodiscard]] Command AddTrialCommand(CLI::App& parent);

@@ -15,6 +15,7 @@
 #include "services/fleet/mission_client.h"
 #include "services/fleet/network_client.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/photo_wish.h"
 #include "services/fleet/routes/catalog_client.h"
 #include "services/mission/orders.h"
 #include "services/network/words.h"
@@ -35,8 +36,11 @@ struct SendOptions {
   std::string robot;
   std::vector<std::string> orders;
   std::string again;
+  mission::PhotoWish again_photos{};  // of a mission to a place
   std::string id;
-  std::string from;  // where `goto` begins; empty for where the robot stands
+  std::string from;            // where `goto` begins; empty for where the robot stands
+  double photo_every_m = 0.0;  // 0 for none
+  std::vector<std::string> photo_at;
   double valid_s = 600.0;
   bool goes_on = false;
   bool unheard = false;
@@ -80,6 +84,8 @@ constexpr const char* kSendExamples =
     "  trailcast send robot1 goto office@8           # round what is closed, or refused\n"
     "  trailcast send robot1 goto loading-bay\n"
     "  trailcast send robot1 --again 4f2a09c1d3e5b687  # what failed, once more\n"
+    "  trailcast send robot1 follow hall --photo-every 5 --photo-at dock   # then: trailcast "
+    "photos\n"
     "A robot does one mission at a time. A server keeps the others in a queue, and what a robot\n"
     "cannot hear yet; 'trailcast missions --open' shows them. The queue goes on by itself after a\n"
     "mission that arrived, and after any other once the robot is told to resume. 'trailcast "
@@ -104,6 +110,7 @@ Result<void> TakeOrders(fleet::OperatorPeer& peer, SendOptions& options) {
   }
   const std::string& orders = found->front().mission.orders;
   const auto going = mission::GoingIn(orders);
+  if (going) options.again_photos = going->photos;
   options.orders = going ? std::vector<std::string>{"goto", going->to} : std::vector{orders};
   return {};
 }
@@ -141,6 +148,16 @@ Result<std::string> OrdersTo(const std::string& goal, const fleet::OperatorPeer&
   return fleet::OrdersAlong(*way, goal);
 }
 
+// Returns the orders with the photos that it is to take.
+Result<std::string> WithPhotos(const std::string& orders, fleet::OperatorPeer& peer,
+                               const SendOptions& options) {
+  auto wish = fleet::PhotoWishFor(options.photo_every_m, options.photo_at, [&] {
+    return fleet::AskForNetwork(*peer.exchange, peer.self, ToMilliseconds(options.timeout_s));
+  });
+  if (!wish) return tl::unexpected(wish.error());
+  return fleet::OrdersWithPhotos(orders, wish->any() ? *wish : options.again_photos);
+}
+
 // Checks the orders as far as that is possible without a server.
 Result<void> CheckOrders(const SendOptions& options) {
   if (options.orders.empty() == options.again.empty()) {
@@ -167,7 +184,8 @@ int Send(const CLI::App& app, const program::CommonOptions& common, SendOptions 
   };
   and_also(exchange::HistoryTopics());
   const bool goes_to_a_place = !options.orders.empty() && options.orders.front() == "goto";
-  if (goes_to_a_place || !options.again.empty()) and_also(exchange::NetworkTopics());
+  if (goes_to_a_place || !options.again.empty() || !options.photo_at.empty())
+    and_also(exchange::NetworkTopics());
   auto peer = fleet::JoinAsOperator(common, use);
   if (!peer) return program::Complain(app, peer.error());
   if (const auto unknown = options.unheard ? std::nullopt
@@ -196,6 +214,9 @@ int Send(const CLI::App& app, const program::CommonOptions& common, SendOptions 
     if (orders->empty()) return program::kExitOk;
     mission.orders = *std::move(orders);
   }
+  auto with_photos = WithPhotos(mission.orders, *peer, options);
+  if (!with_photos) return program::Complain(app, with_photos.error());
+  mission.orders = *std::move(with_photos);
   fleet::SendWatch watch;
   watch.timeout = ToMilliseconds(options.timeout_s);
   watch.to_its_end = options.wait;
@@ -386,6 +407,14 @@ Command AddSend(CLI::App& parent, const program::CommonOptions& common) {
       "--from", options->from,
       "Where a robot stands that goes to a place, ROUTE@METRES or a name; default: where "
       "it last said so");
+  app->add_option("--photo-every", options->photo_every_m,
+                  "Photos at every so many metres along each route, from its beginning, so that "
+                  "all visits have theirs at the same places")
+      ->check(CLI::Range(0.2, 1e4));
+  app->add_option("--photo-at", options->photo_at,
+                  "A photo at this place, ROUTE@METRES or a name; may be given several times")
+      ->take_all()
+      ->allow_extra_args(false);
   app->add_option("--valid", options->valid_s,
                   "How long a server keeps it for a robot that is out of reach: 90s, 20min, 2h; 0: "
                   "for ever")

@@ -147,6 +147,31 @@ TEST(CheckBounds, RefusesWhatNobodyHears) {
   ExpectRefused(ReachRequest{.client = AgentId("o"), .relayed = true}, "server");
 }
 
+TEST(CheckBounds, APhotoComesInBoundedPieces) {
+  const PhotoPiece good{.holder = AgentId("r"), .client = AgentId("s"), .photo = "4f2a"};
+  EXPECT_TRUE(CheckBounds(good));
+  PhotoPiece message = good;
+  message.bytes.resize(kMaxPhotoPieceBytes + 1);
+  ExpectRefused(message, "bytes of a photo");
+  message = good;
+  message.offset = kMaxPhotoBytes + 1;
+  ExpectRefused(message, "place in a photo");
+  message = good;
+  message.photo = "../4f2a";
+  ExpectRefused(message, "photo");
+  message = good;
+  message.words.assign(kMaxLineBytes + 1, 'w');
+  ExpectRefused(message, "words");
+  const PhotoRequest asks{.client = AgentId("s"), .holder = AgentId("r"), .photo = "4f2a"};
+  EXPECT_TRUE(CheckBounds(asks));
+  PhotoRequest request = asks;
+  request.photo = "";
+  ExpectRefused(request, "photo");
+  request = asks;
+  request.refusal = "a\nb";
+  ExpectRefused(request, "refusal");
+}
+
 TEST(CheckBounds, ASummaryOfAStoreTellsPartsOrRevisionsBelowAWholeNumberOfDigitPairs) {
   const StoreSummary good{.server = AgentId("s"), .prefix = "a3"};
   EXPECT_TRUE(CheckBounds(good));

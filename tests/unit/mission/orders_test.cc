@@ -73,6 +73,31 @@ TEST(Orders, OfAWayToAPlaceSayWhereItLeadsAndWhyItIsAnotherOne) {
   EXPECT_FALSE(GoingIn("goto bay teach yard"));
 }
 
+TEST(Orders, AskForPhotosBeforeTheFirstOrder) {
+  const PhotoWish wish =
+      PhotosIn("photo every 2.5 at hall@3 at dock=yard@2@0.5 follow hall follow yard@2");
+  EXPECT_DOUBLE_EQ(wish.every_m, 2.5);
+  ASSERT_THAT(wish.at, SizeIs(2));
+  EXPECT_EQ(wish.at[0].route.route, "hall");
+  EXPECT_DOUBLE_EQ(wish.at[0].along_m, 3.0);
+  EXPECT_EQ(wish.at[1].name, "dock");
+  EXPECT_EQ(wish.at[1].route.revision, 2U);
+  EXPECT_DOUBLE_EQ(wish.at[1].along_m, 0.5);
+  EXPECT_EQ(ToText(wish), "photo every 2.5 at hall@3 at dock=yard@2@0.5");
+  EXPECT_THAT(*ParseOrders("photo at hall@3 follow hall wait 2"), SizeIs(2));
+  EXPECT_FALSE(PhotosIn("follow hall").any());
+  EXPECT_FALSE(PhotosIn("photo every 5 dance").any());
+}
+
+// A server that sends a robot along another path has it take the same pictures there.
+TEST(Orders, OfAWayToAPlaceKeepItsPhotos) {
+  const char* text = "goto bay way 2 photo every 5 follow hall 0..3 because there is a way";
+  const auto going = GoingIn(text);
+  ASSERT_TRUE(going);
+  EXPECT_DOUBLE_EQ(going->photos.every_m, 5.0);
+  EXPECT_EQ(ToText(*going, *ParseOrders(text)), text);
+}
+
 // Routes may be called as the words of orders are.
 TEST(Orders, OfARouteCalledLikeAWord) {
   const auto tasks = ParseOrders("follow follow follow wait wait 1");
@@ -132,6 +157,17 @@ TEST(Orders, ThatAreNotUnderstoodAreNamed) {
   EXPECT_THAT(why("follow hall wait lane"), HasSubstr("seconds"));
   EXPECT_THAT(why("wait"), HasSubstr("seconds"));
   EXPECT_THAT(why("wait -1"), HasSubstr("seconds"));
+  EXPECT_THAT(why("photo follow hall"), HasSubstr("'every METRES' or 'at PLACE'"));
+  EXPECT_THAT(why("photo every 0.1 follow hall"), HasSubstr("0.2 or more"));
+  EXPECT_THAT(why("photo every nan follow hall"), HasSubstr("'nan'"));
+  EXPECT_THAT(why("photo at hall follow hall"), HasSubstr("'hall' was not understood"));
+  EXPECT_THAT(why("photo at a b=hall@1 follow hall"), HasSubstr("as hall@12.5"));
+  EXPECT_THAT(why("photo at hall@-1 follow hall"), HasSubstr("as hall@12.5"));
+  EXPECT_THAT(why("photo every 5"), HasSubstr("no orders"));
+  EXPECT_THAT(why("follow hall photo every 5"), HasSubstr("before the first of them"));
+  std::string many = "photo";
+  for (int i = 0; i < 17; ++i) many += " at h@1";
+  EXPECT_THAT(why((many + " follow h").c_str()), HasSubstr("16 places"));
   EXPECT_THAT(why("wait inf"), HasSubstr("seconds"));
 }
 

@@ -38,6 +38,8 @@ TEST(Role, OnlyOperatorsEditRoutesAndOnlyServersReceiptOrReply) {
     EXPECT_EQ(may(Topic::kReachReports), role != Role::kOperator && role != Role::kObserver)
         << NameOf(role);
     EXPECT_EQ(may(Topic::kStores), role == Role::kServer) << NameOf(role);
+    EXPECT_EQ(may(Topic::kPhotos), role != Role::kOperator && role != Role::kObserver)
+        << NameOf(role);
     EXPECT_EQ(may(Topic::kReceipts), role == Role::kServer) << NameOf(role);
     EXPECT_EQ(may(Topic::kCatalogReplies), role == Role::kServer) << NameOf(role);
   }
@@ -48,7 +50,7 @@ TEST(Role, AFollowerAnnouncesNoRoutesAndAnObserverOnlyAsks) {
   EXPECT_THAT(
       RightsOf(Role::kObserver).write,
       ElementsAre(Topic::kCatalogRequests, Topic::kMissionRequests, Topic::kSnapshotRequests,
-                  Topic::kNetworkRequests, Topic::kReachRequests));
+                  Topic::kNetworkRequests, Topic::kReachRequests, Topic::kPhotoRequests));
 }
 
 TEST(Role, AllowsWhatItsProgramsOpenAndNamesWhatIsBeyond) {

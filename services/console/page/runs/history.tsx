@@ -5,6 +5,7 @@ import { Copy } from '../copy';
 import { age, when } from '../fleet';
 import { useMay } from '../me';
 import { isOver } from '../missions';
+import { PhotoList, PhotoPage, PhotosOf } from '../photos/photos';
 import { Slide } from '../robot/send';
 import { RunPage } from './run';
 import { RunList, RunsOf } from './run-list';
@@ -84,7 +85,7 @@ function answersOf({ answers }: Command): string {
 }
 
 // What is kept of a mission's life, and what the robot was told meanwhile.
-function Life({ mission }: { mission: Mission }) {
+function Life({ mission, now_ms }: { mission: Mission; now_ms: number }) {
   const [search] = useState<Search>({
     robot: mission.robot,
     from_unix_ms: String(mission.sent_unix_ms),
@@ -117,6 +118,7 @@ function Life({ mission }: { mission: Mission }) {
       )}
       <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>{answer && `${answer.ok ? '' : '⚠ '}${mission.robot}: ${answer.text}`}</p>
       <RunsOf mission={mission.mission} />
+      {/\bphoto (every|at) /.test(mission.orders) && <PhotosOf mission={mission.mission} now_ms={now_ms} />}
     </div>
   );
 }
@@ -137,7 +139,7 @@ function MissionLine({ mission, now_ms, opened = false }: { mission: Mission; no
         <td data-label="Why">{mission.detail}</td>
         <td data-label="Operator">{mission.sent_by}</td>
       </tr>
-      {open && <tr className="opened"><td colSpan={7}><Life mission={mission} /></td></tr>}
+      {open && <tr className="opened"><td colSpan={7}><Life mission={mission} now_ms={now_ms} /></td></tr>}
     </>
   );
 }
@@ -212,10 +214,13 @@ function CommandHistory({ now_ms }: { now_ms: number }) {
 }
 
 const kMission = 'mission-';
+const kPhotos = 'photos-';
+const kPhoto = 'photo-';
 
 export function History({ open, live, now_ms }: { open: string; live: Mission[]; now_ms: number }) {
-  const kind = ['commands', 'runs', 'alerts'].includes(open) ? open : 'missions';
+  const kind = ['commands', 'runs', 'alerts', 'photos'].includes(open) ? open : open.startsWith(kPhotos) ? 'photos' : 'missions';
   if (open.startsWith('run-')) return <RunPage key={open} id={open.slice('run-'.length)} />;
+  if (open.startsWith(kPhoto)) return <PhotoPage key={open} id={open.slice(kPhoto.length)} now_ms={now_ms} />;
   return (
     <section aria-label="History" className="history">
       <h2>History</h2>
@@ -223,6 +228,7 @@ export function History({ open, live, now_ms }: { open: string; live: Mission[];
         <a href="#history" aria-current={kind === 'missions' ? 'page' : undefined}>Missions</a>
         <a href="#history/commands" aria-current={kind === 'commands' ? 'page' : undefined}>Commands</a>
         <a href="#history/runs" aria-current={kind === 'runs' ? 'page' : undefined}>Runs</a>
+        <a href="#history/photos" aria-current={kind === 'photos' ? 'page' : undefined}>Photos</a>
         <a href="#history/alerts" aria-current={kind === 'alerts' ? 'page' : undefined}>Alerts</a>
       </nav>
       {kind === 'missions' && (open.startsWith(kMission)
@@ -230,6 +236,7 @@ export function History({ open, live, now_ms }: { open: string; live: Mission[];
         : <MissionHistory now_ms={now_ms} />)}
       {kind === 'commands' && <CommandHistory now_ms={now_ms} />}
       {kind === 'runs' && <RunList now_ms={now_ms} />}
+      {kind === 'photos' && <PhotoList key={open} mission={open.startsWith(kPhotos) ? open.slice(kPhotos.length) : ''} now_ms={now_ms} />}
       {kind === 'alerts' && <AlertHistory now_ms={now_ms} />}
     </section>
   );

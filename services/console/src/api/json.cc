@@ -100,6 +100,32 @@ Result<std::vector<std::string>> TagsIn(const Json& json) {
   return tags;
 }
 
+Result<void> ReadPhotos(const Json& json, SendBody& send) {
+  if (json.contains("photo_every_m")) {
+    const auto every_m = NumberIn(json, "photo_every_m");
+    if (!every_m) return tl::unexpected(every_m.error());
+    if (*every_m <= 0.0) {
+      return Fail(ErrorCode::kInvalidArgument, "'photo_every_m' is to be metres, 0.2 or more");
+    }
+    send.photo_every_m = *every_m;
+  }
+  if (!json.contains("photo_at")) return {};
+  const Json& places = json["photo_at"];
+  const bool are_lines =
+      places.is_array() && places.size() <= mission::kMostPhotoPlaces &&
+      std::all_of(places.begin(), places.end(), [](const Json& place) {
+        return place.is_string() &&
+               IsPlainText(place.get_ref<const std::string&>(), exchange::kMaxLineBytes);
+      });
+  if (!are_lines) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "'photo_at' is to be a list of at most {} places, each ROUTE@METRES or a name",
+                mission::kMostPhotoPlaces);
+  }
+  for (const Json& place : places) send.photo_at.push_back(place.get<std::string>());
+  return {};
+}
+
 }  // namespace
 
 Result<std::string> ReadReason(const std::string& body) {
@@ -117,7 +143,8 @@ std::string ReasonIfAny(const std::string& body) {
 }
 
 Result<SendBody> ReadSend(const std::string& body) {
-  const auto json = ReadObject(body, {"orders", "id", "valid_s", "goes_on", "unheard"});
+  const auto json = ReadObject(
+      body, {"orders", "id", "valid_s", "goes_on", "unheard", "photo_every_m", "photo_at"});
   if (!json) return tl::unexpected(json.error());
   auto orders = LineIn(*json, "orders");
   if (!orders) return tl::unexpected(orders.error());
@@ -147,6 +174,7 @@ Result<SendBody> ReadSend(const std::string& body) {
     }
     *value = (*json)[name].get<bool>();
   }
+  if (auto read = ReadPhotos(*json, send); !read) return tl::unexpected(read.error());
   return send;
 }
 

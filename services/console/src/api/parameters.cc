@@ -259,6 +259,36 @@ Result<RunsQuery> ReadRunsQuery(const Parameters& parameters) {
   return query;
 }
 
+Result<PhotosQuery> ReadPhotosQuery(const Parameters& parameters) {
+  using Query = PhotosQuery;
+  const auto name_into = [](std::string photos::PhotoQuery::*field) {
+    return [field](const std::string& text, Query& query) -> Result<void> {
+      return NameInto<photos::PhotoQuery>(field)(text, query.of);
+    };
+  };
+  static const Readers<Query> kAll{{"robot", name_into(&photos::PhotoQuery::robot)},
+                                   {"route", name_into(&photos::PhotoQuery::route)},
+                                   {"mission", name_into(&photos::PhotoQuery::mission)},
+                                   {"place",
+                                    [](const std::string& text, Query& query) -> Result<void> {
+                                      auto at = photos::AtPlace(query.of, text);
+                                      if (!at) return tl::unexpected(at.error());
+                                      query.of = *std::move(at);
+                                      return {};
+                                    }},
+                                   {"from_unix_ms",
+                                    [](const std::string& text, Query& query) -> Result<void> {
+                                      if (ReadNumber(text, query.of.from_unix_ms)) return {};
+                                      return Fail(ErrorCode::kInvalidArgument, "is no number");
+                                    }},
+                                   {"first", NumberInto<Query, std::uint32_t>(&Query::first)}};
+  Query query;
+  if (auto read = ReadParameters(parameters, kAll, "", query); !read) {
+    return tl::unexpected(read.error());
+  }
+  return query;
+}
+
 Result<NetworkQuery> ReadNetworkQuery(const Parameters& parameters) {
   using Query = NetworkQuery;
   static const Readers<Query> kAll{{"search", LoggedNameInto<Query>(&Query::search)},

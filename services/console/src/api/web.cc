@@ -20,6 +20,7 @@
 #include "services/console/src/api/history_api.h"
 #include "services/console/src/api/map_api.h"
 #include "services/console/src/api/network_api.h"
+#include "services/console/src/api/photos_api.h"
 #include "services/console/src/api/routes/routes_api.h"
 #include "services/console/src/api/routes/transfers_api.h"
 #include "services/console/src/api/routes/where_api.h"
@@ -30,6 +31,7 @@
 #include "services/exchange/bounds.h"
 #include "services/fleet/draw.h"
 #include "services/fleet/mission_client.h"
+#include "services/fleet/photo_wish.h"
 #include "services/program/json.h"
 
 namespace trailcast::console {
@@ -83,7 +85,8 @@ std::string IdFor(const users::Who& who) {
 // enough threads for a room of people, and leaves more for others.
 http::Limits LimitsFor(const Access& access) {
   constexpr std::size_t kOwn = Web::kMostStreams + Desk::kMostErrands + kMostLookers +
-                               Runs::kMostWaiting + NetworkWatch::kMostWaiting + 16;
+                               Runs::kMostWaiting + NetworkWatch::kMostWaiting +
+                               Album::kMostWaiting + 16;
   if (!access.is_open()) return {.threads = kOwn, .body_bytes = kMostBody};
   return {.threads = kOwn + 64, .body_bytes = kMostBody, .of_one_address = 24};
 }
@@ -115,6 +118,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
     : desk_(desk),
       access_(std::move(entry)),
       network_(desk),
+      album_(desk),
       server_(LimitsFor(access_),
               [](const Error& error) { spdlog::error("console: {}", error.message); }) {
   httplib::Headers headers{
@@ -153,6 +157,7 @@ Web::Web(Desk& desk, Atlas& atlas, Site* site, Entry entry, Transfers::Join join
   ServeMap(server_, atlas, site);
   ServeNetwork(server_, desk_, network_, access_);
   ServeSchedules(server_, desk_, access_);
+  ServePhotos(server_, album_);
   ServeDriving(server_, desk_);
   ServeWhere(server_, desk_);
   if (join) ServeTransfers(server_, desk_, transfers_.emplace(std::move(join)));
@@ -312,12 +317,26 @@ void Web::ServeMissions() {
                });
 }
 
+// A place's name is looked up in the network that servers keep.
+Result<std::string> Web::OrdersOf(const SendBody& body) {
+  const auto wish = fleet::PhotoWishFor(body.photo_every_m, body.photo_at,
+                                        [this]() -> Result<std::vector<std::string>> {
+                                          auto answer = AskForNetwork(desk_, "");
+                                          if (!answer) return tl::unexpected(answer.error());
+                                          return std::move(answer->lines);
+                                        });
+  if (!wish) return tl::unexpected(wish.error());
+  return fleet::OrdersWithPhotos(body.orders, *wish);
+}
+
 void Web::Send(const std::string& robot, const Request& request, Response& response) {
   const auto body = ReadSend(request.body);
   if (!body) return Refuse(response, 400, body.error().message);
+  const auto orders = OrdersOf(*body);
+  if (!orders) return Refuse(response, orders.error());
   const auto report = desk_.Send({.agent = AgentId(robot),
                                   .id = body->id.empty() ? IdFor(access_.WhoIs(request)) : body->id,
-                                  .orders = body->orders,
+                                  .orders = *orders,
                                   .valid_for_s = body->valid_s,
                                   .goes_on = body->goes_on},
                                  body->unheard);

@@ -1,0 +1,166 @@
+// Photos of missions over HTTP, from a server's part in this process.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "route_server/fleet/photo_registry.h"
+#include "services/console/web.h"
+#include "services/exchange/in_process_exchange.h"
+#include "services/fleet/routes/route_export.h"
+#include "services/image/files.h"
+#include "services/route/digest.h"
+#include "tests/support/painted_wall.h"
+#include "tests/support/temp_dir.h"
+#include "tests/unit/console/replied.h"
+
+namespace trailcast::console {
+namespace {
+
+using nlohmann::json;
+using photos::Photo;
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class PhotosApiTest : public testing::Test {
+ protected:
+  void Serve() {
+    server_ = std::jthread([this](const std::stop_token& stop) {
+      server::PhotoRegistry registry(AgentId("barn"), std::move(folder_));
+      const auto exchange = bus_.Open(exchange::ServerTopics());
+      while (!stop.stop_requested()) {
+        for (const exchange::Message& message : exchange->Take(milliseconds(5))) {
+          if (const auto* asked = std::get_if<exchange::NetworkRequest>(&message)) {
+            (void)exchange->Publish(registry.Answer(*asked));
+          } else if (const auto* wants = std::get_if<exchange::PhotoRequest>(&message)) {
+            if (const auto piece = registry.Give(*wants)) (void)exchange->Publish(*piece);
+          }
+        }
+      }
+    });
+  }
+  // A photo of the wall by a mission, whose name's first letter is its id's digits, too.
+  void Keep(const std::string& mission, const image::GrayImage& picture) {
+    const auto jpeg = image::EncodeJpeg(picture, 90).value();
+    const Photo photo{.id = std::string(16, mission[0]),
+                      .robot = AgentId("robot2"),
+                      .mission = mission,
+                      .route = "hall",
+                      .revision = 1,
+                      .along_m = 12.53,
+                      .spot_m = 12.5,
+                      .place = "shelf",
+                      .taken_unix_ms = 1'700'000'000'000 + mission[0],
+                      .width_px = picture.width,
+                      .height_px = picture.height,
+                      .bytes = static_cast<std::uint32_t>(jpeg.size()),
+                      .digest = route::Sha256(jpeg)};
+    ASSERT_TRUE(folder_->Add(photo, jpeg));
+  }
+  static image::GrayImage Wall(unsigned seed, double shift_px) {
+    return test::PaintedWall(seed).Photograph(
+        {.scale = 1.4, .du_px = shift_px, .width = 640, .height = 480});
+  }
+  [[nodiscard]] httplib::Client Client() const {
+    return ClientOf(web_->port(), std::chrono::seconds(60));
+  }
+  [[nodiscard]] Replied Get(const std::string& path) const { return ReplyOf(Client().Get(path)); }
+
+  static const std::string kA;  // photos' ids
+  static const std::string kB;
+
+  test::TempDir place_;
+  std::unique_ptr<photos::PhotoFolder> folder_ =
+      photos::PhotoFolder::Open(place_ / "photos", 10'000'000).value();
+  exchange::InProcessBus bus_;
+  std::jthread server_;
+  Desk desk_{AgentId("desk-p7"), bus_.Open(ConsoleTopics()),
+             Desk::Options{.reply_within = milliseconds(20'000)}};
+  Atlas atlas_{[this]() -> Result<fleet::OperatorPeer> {
+    return fleet::OperatorPeer{AgentId("desk-map"), bus_.Open(fleet::ExporterTopics())};
+  }};
+  std::unique_ptr<Web> web_ = Web::Open(desk_, atlas_, nullptr, "localhost", 0, {}).value();
+};
+const std::string PhotosApiTest::kA(16, 'a');
+const std::string PhotosApiTest::kB(16, 'b');
+
+TEST_F(PhotosApiTest, AreListedAndShownWithTheOtherVisitsOfTheirPlace) {
+  Keep("a1", Wall(1, 0.0));
+  Keep("b1", Wall(1, 10.0));
+  Serve();
+  const json all = Get("/api/photos").body;
+  ASSERT_EQ(all["photos"].size(), 2U) << all;
+  EXPECT_EQ(all["photos"][0]["id"], kB) << "the last taken first";
+  EXPECT_EQ(all["photos"][0]["server"], "barn");
+  EXPECT_EQ(all["next"], 0);
+  EXPECT_EQ(Get("/api/photos?mission=a1").body["photos"].size(), 1U);
+  EXPECT_EQ(Get("/api/photos?place=shelf").body["photos"].size(), 2U);
+  EXPECT_EQ(Get("/api/photos?place=hall@12.6").body["photos"].size(), 2U);
+  EXPECT_EQ(Get("/api/photos?place=yard@12.6").body["photos"].size(), 0U);
+  const json shown = Get("/api/photos/" + kA).body;
+  EXPECT_EQ(shown["photo"]["place"], "shelf");
+  EXPECT_EQ(shown["photo"]["sure"], true);
+  ASSERT_EQ(shown["visits"].size(), 1U) << shown;
+  EXPECT_EQ(shown["visits"][0]["mission"], "b1");
+}
+
+TEST_F(PhotosApiTest, ArePicturesAndAFolderWithATable) {
+  Keep("a1", Wall(1, 0.0));
+  Keep("b1", Wall(1, 10.0));
+  Serve();
+  const auto picture = Client().Get("/api/photos/" + kA + "/picture");
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->status, 200);
+  EXPECT_EQ(picture->get_header_value("Content-Type"), "image/jpeg");
+  const std::vector<std::uint8_t> bytes(picture->body.begin(), picture->body.end());
+  EXPECT_EQ(image::DecodeGray(bytes, "it")->width, 640);
+  const auto tar = Client().Get("/api/photos.tar?mission=a1");
+  ASSERT_TRUE(tar);
+  EXPECT_EQ(tar->body.size() % 512, 0U);
+  EXPECT_THAT(tar->body, StartsWith("photos/2023-11-14T22-13-20Z-shelf-robot2-aaaa.jpg"));
+  EXPECT_THAT(tar->body, HasSubstr(picture->body));
+  EXPECT_THAT(tar->body, HasSubstr("photos/photos.csv"));
+  EXPECT_THAT(tar->body, HasSubstr("2023-11-14T22-13-20Z-shelf-robot2-aaaa.jpg,"
+                                   "2023-11-14T22:13:20Z,robot2,a1,hall,1,shelf,12.50,12.53,1,0,"));
+  EXPECT_EQ(Get("/api/photos.tar?mission=none").status, 404);
+}
+
+TEST_F(PhotosApiTest, AreComparedOrItIsSaidWhyNot) {
+  image::GrayImage now = Wall(1, 10.0);
+  for (int y = 200; y < 260; ++y) {
+    for (int x = 300; x < 380; ++x) now.pixels[image::PixelIndex(x, y, now.width)] = 255;
+  }
+  Keep("a1", Wall(1, 0.0));
+  Keep("b1", now);
+  Keep("c1", Wall(2, 0.0));
+  Serve();
+  const json compared = Get("/api/photos/" + kB + "/changes?since=" + kA).body;
+  EXPECT_EQ(compared["aligned"], true) << compared;
+  ASSERT_EQ(compared["changes"].size(), 1U) << compared;
+  EXPECT_NEAR(compared["changes"][0]["x"].get<double>(), 300, 12);
+  const auto earlier = Client().Get("/api/photos/" + kB + "/earlier?since=" + kA);
+  ASSERT_TRUE(earlier);
+  EXPECT_EQ(earlier->get_header_value("Content-Type"), "image/jpeg");
+  const json other = Get("/api/photos/" + std::string(16, 'c') + "/changes?since=" + kA).body;
+  EXPECT_EQ(other["aligned"], false);
+  EXPECT_THAT(other["why"].get<std::string>(), HasSubstr("do not align"));
+  EXPECT_EQ(Get("/api/photos/" + std::string(16, 'c') + "/earlier?since=" + kA).status, 409);
+}
+
+TEST_F(PhotosApiTest, ThatAreNotThereAndQuestionsThatAreNoneAreRefusedInWords) {
+  Keep("a1", Wall(1, 0.0));
+  Serve();
+  const Replied none = Get("/api/photos/" + kB);
+  EXPECT_EQ(none.status, 404);
+  EXPECT_THAT(none.error(), HasSubstr("there is no photo"));
+  EXPECT_EQ(Get("/api/photos/" + kB + "/picture").status, 404);
+  EXPECT_EQ(Get("/api/photos/" + kA + "/changes?since=yesterday").status, 400);
+  EXPECT_EQ(Get("/api/photos/" + kA + "/changes?since=" + kB).status, 404);
+  EXPECT_THAT(Get("/api/photos?colour=red").error(), HasSubstr("'colour'"));
+  EXPECT_THAT(Get("/api/photos?place=hall@").error(), HasSubstr("is no place"));
+}
+
+}  // namespace
+}  // namespace trailcast::console
