@@ -114,6 +114,7 @@ class FollowerLink {
   [[nodiscard]] Result<void> Find();
   [[nodiscard]] Result<std::optional<route::RouteInfo>> FindOwn();
   [[nodiscard]] Result<bool> Asked(Time began, const std::optional<route::RouteInfo>& own);
+  [[nodiscard]] Error WaitedInVain() const;
   [[nodiscard]] Result<void> StartFetching();
   [[nodiscard]] Result<void> MakeFetcher(const std::vector<exchange::RouteFetcher::Held>& held);
   [[nodiscard]] Result<void> Follow();

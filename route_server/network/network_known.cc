@@ -27,7 +27,13 @@ Result<route::RouteInfo> NetworkRegistry::Meant(const std::string& words) const 
   auto found = exchange::ChooseMeant(ref->route, *routes, {.number = ref->revision});
   if (!found) return tl::unexpected(found.error());
   auto& meant = *found;
-  if (!meant) return Fail(ErrorCode::kNotFound, "there is no route '{}'", words);
+  if (!meant && routes->empty()) {
+    return Fail(ErrorCode::kNotFound, "there is no route '{}'", words);
+  }
+  if (!meant) {
+    return tl::unexpected(
+        exchange::NotMeant("the server", ref->route, *routes, {.number = ref->revision}));
+  }
   if (meant->state != route::RouteState::kComplete) {
     return Fail(ErrorCode::kNotFound, "route '{}' is not complete yet", words);
   }

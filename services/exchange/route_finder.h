@@ -35,6 +35,16 @@ struct RevisionChoice {
 [[nodiscard]] tl::unexpected<Error> Ambiguous(const std::string& name_or_id,
                                               const std::vector<route::RouteInfo>& rivals);
 
+// Says that `holder` has revisions of a route, at least one, and that none of them is meant:
+// "server 'barn' has no active revision of route 'hall'; it has a3f9c21@1 (cut off)".
+[[nodiscard]] std::string NotMeantText(const std::string& holder, const std::string& name_or_id,
+                                       const std::vector<route::RouteInfo>& others,
+                                       const RevisionChoice& which = {});
+// Returns kNotFound with the same, why robots follow none of them, and what to do.
+[[nodiscard]] Error NotMeant(const std::string& holder, const std::string& name_or_id,
+                             const std::vector<route::RouteInfo>& others,
+                             const RevisionChoice& which = {});
+
 // Returns the one that a name, or the beginning of an id, means, as ChooseRoute does, or Ambiguous
 // if it may be any of several.
 [[nodiscard]] Result<std::optional<route::RouteInfo>> ChooseMeant(
@@ -75,6 +85,7 @@ class RouteFinder {
     std::vector<std::string> similar_names;
     std::vector<route::RouteInfo> others{};  // of this name, but none of them is meant
   };
+  // Of several servers' answers, one that has revisions of the route counts more.
   [[nodiscard]] const std::optional<Unknown>& unknown() const { return unknown_; }
   // Tells that all of `servers` have said so.
   [[nodiscard]] bool IsUnknownTo(const std::set<AgentId>& servers) const;
@@ -93,8 +104,8 @@ class RouteFinder {
   std::optional<route::RouteInfo> found_;
   std::vector<route::RouteInfo> announced_;  // the latest of each key, at most kMaxAnnounced
   std::vector<route::RouteInfo> rivals_;
-  std::optional<Unknown> unknown_;  // from the last such reply
-  std::set<AgentId> unknown_to_;    // servers that said so, at most kMaxAnnounced
+  std::optional<Unknown> unknown_;
+  std::set<AgentId> unknown_to_;  // servers that said so, at most kMaxAnnounced
   std::string error_;
 };
 

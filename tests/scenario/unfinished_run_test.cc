@@ -55,6 +55,24 @@ TEST_F(UnfinishedRun, IsKeptAndTaughtAnewWhereNobodyIsAsked) {
   EXPECT_THAT(Tool({"routes"}), AllOf(HasSubstr("cut off"), HasSubstr("active")));
 }
 
+TEST_F(UnfinishedRun, WhoWaitsForItIsToldThatItWasCutOff) {
+  const auto server = Server();
+  TeachAndKill();
+  const auto delivered = RunAgent({"deliver", "--store", Path("scout.db")});
+  ASSERT_EQ(delivered.status, 0) << delivered.output;
+  const Words follow{"replay", "--sim",   "indoor", "--path",  Path("path.csv"), "--name",
+                     "robot",  "--route", "hall",   "--store", Path("robot.db"), "--server"};
+  const auto waited = RunAgent(With(follow, {"--wait-for-route", "--wait", "5"}));
+  EXPECT_EQ(waited.status, 1) << waited.output;
+  EXPECT_THAT(waited.output,
+              AllOf(HasSubstr("waited 5 s in vain: server 'server' has no active revision of route "
+                              "'hall'; it has "),
+                    HasSubstr("@1 (cut off): its teaching was cut off, and robots follow no "
+                              "revision of it; teach it again, or finish it")));
+  EXPECT_THAT(Tool({"routes", "--name", "hall", "--state", "active"}),
+              HasSubstr("'trailcast routes --name hall' lists it, if there is one"));
+}
+
 TEST_F(UnfinishedRun, IsOfferedToNobodyOnceItIsDiscarded) {
   const auto server = Server();
   TeachAndKill();

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <regex>
 #include <utility>
 
 #include "services/exchange/publish.h"
 #include "services/store/route_store.h"
+#include "tests/soak/verdict.h"
 #include "tests/support/places.h"
 
 namespace trailcast::soak {
@@ -16,7 +16,6 @@ namespace {
 // share their cores with other work.
 constexpr std::chrono::seconds kPatience{600};
 constexpr std::size_t kLive = 2;  // of cycles before: one retired, one to be deleted
-constexpr int kNotArrived = 3;
 
 }  // namespace
 
@@ -94,15 +93,14 @@ void Cycle::WatchRobots(Clock::time_point now) {
 
 void Cycle::NoteEnd(const Member& follower, int status) {
   --robots_left_;
-  const std::string words = follower.LastWords();
-  if (status == 0) {
+  const auto why =
+      JudgeFollower(status, follower.LastWords(), errand_.route, fleet_.teaching_cut_off());
+  if (!why) {
+    Fail(fmt::format("{} {}", follower.name(), why.error().message));
+  } else if (why->empty()) {
     ++outcome_.arrived;
-  } else if (std::smatch why; status == kNotArrived &&
-                              std::regex_search(words, why, std::regex("not arrived: (.*)"))) {
-    outcome_.explained.push_back(
-        fmt::format("{} on {}: {}", follower.name(), errand_.route, why[1].str()));
   } else {
-    Fail(fmt::format("{} ended with status {}:\n{}", follower.name(), status, words));
+    outcome_.explained.push_back(fmt::format("{} on {}: {}", follower.name(), errand_.route, *why));
   }
 }
 

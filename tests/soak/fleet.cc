@@ -42,6 +42,7 @@ void Fleet::StartServer() {
 
 void Fleet::Begin(const Errand& errand) {
   errand_ = errand;
+  teaching_cut_off_ = false;
   std::filesystem::create_directories(errand_.folder);
   Teach();
   for (const auto& follower : followers_) Follow(*follower);
@@ -50,12 +51,13 @@ void Fleet::Begin(const Errand& errand) {
 void Fleet::Resume(Role role, Member& member) {
   if (role == Role::kServer) return StartServer();
   if (role == Role::kFollower) return Follow(member);
-  bool taught = false;
-  {
-    const auto store = store::OpenSqliteStore(ScoutsStore());
-    taught = store && !(*store)->ListRoutes().value_or(std::vector<route::RouteInfo>()).empty();
+  std::vector<route::RouteInfo> taught;
+  if (const auto store = store::OpenSqliteStore(ScoutsStore())) {
+    taught = (*store)->ListRoutes().value_or(std::move(taught));
   }
-  if (!taught) return Teach();
+  if (taught.empty()) return Teach();
+  teaching_cut_off_ =
+      taught.front().cut_off || taught.front().state == route::RouteState::kTeaching;
   scout_.Start("trailcast-agent",
                {"--store", ScoutsStore().string(), "deliver", "--delivery-timeout", kPatience_s});
 }

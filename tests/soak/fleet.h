@@ -34,6 +34,9 @@ class Fleet {
   // and a follower starts over.
   void Resume(Role role, Member& member);
 
+  // Returns whether the scout was killed in the middle of this errand's teaching.
+  [[nodiscard]] bool teaching_cut_off() const { return teaching_cut_off_; }
+
   [[nodiscard]] Member& server() { return server_; }
   [[nodiscard]] Member& scout() { return scout_; }
   [[nodiscard]] std::vector<std::unique_ptr<Member>>& followers() { return followers_; }
@@ -70,6 +73,7 @@ class Fleet {
   Member scout_;
   std::vector<std::unique_ptr<Member>> followers_;
   Errand errand_;
+  bool teaching_cut_off_ = false;
 };
 
 }  // namespace trailcast::soak

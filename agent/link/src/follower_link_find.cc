@@ -2,15 +2,12 @@
 // knows it.
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "agent/link/follower_link.h"
 #include "services/base/time.h"
-#include "services/route/labels.h"
 #include "services/route/no_route.h"
-#include "services/route/route_ref.h"
 
 namespace trailcast::agent {
 namespace {
@@ -21,32 +18,19 @@ using std::chrono::steady_clock;
 // A robot that has the route waits no longer than this for a server's opinion.
 constexpr milliseconds kServerPatience{3000};
 
-// Says that there are revisions, but not the wanted one. `holder` is "server 'server'" or
-// "robot.db".
-Error NotOffered(const std::string& holder, std::vector<route::RouteInfo> others,
-                 const FollowerLinkOptions& options) {
-  constexpr std::size_t kShown = 4;
-  std::sort(others.begin(), others.end(),
-            [](const auto& a, const auto& b) { return a.revision > b.revision; });
-  const route::ShortIds ids(others);
-  std::vector<std::string> shown;
-  for (const route::RouteInfo& info : std::span(others).first(std::min(kShown, others.size()))) {
-    shown.push_back(fmt::format("{} ({})", ids.Of(info), route::StateText(info)));
+// Says that `holder`, "server 'barn'" or "robot.db", has no such route, or `others` of which none
+// is meant.
+Error NotThere(const std::string& holder, const std::vector<route::RouteInfo>& others,
+               const std::vector<std::string>& names, const FollowerLinkOptions& options) {
+  if (others.empty()) {
+    return {ErrorCode::kNotFound, route::NoRouteText(holder, options.route, names)};
   }
-  if (others.size() > kShown) shown.emplace_back("..");
-  const std::uint32_t number = options.revision.number;
-  const std::string& scout = options.revision.scout;
-  std::string message = fmt::format(
-      "{} has no {} of route '{}'{}; it has {}", holder,
-      number != 0 ? fmt::format("revision {}", number) : "active revision", options.route,
-      scout.empty() ? "" : fmt::format(" of scout '{}'", scout), fmt::join(shown, ", "));
-  if (number == 0) {
-    const std::string id = ids.Of(others.front());
-    message += fmt::format(
-        ": 'trailcast routes activate {}' has robots follow that, '--route {}' this one alone", id,
-        id);
-  }
-  return {ErrorCode::kNotFound, message};
+  return exchange::NotMeant(holder, options.route, others, options.revision);
+}
+
+Error NotThere(const exchange::RouteFinder::Unknown& unknown, const FollowerLinkOptions& options) {
+  return NotThere(fmt::format("server '{}'", unknown.server.value()), unknown.others,
+                  unknown.similar_names, options);
 }
 
 }  // namespace
@@ -68,15 +52,13 @@ Result<void> FollowerLink::Find() {
   if (!exchange_) {
     route_ = *own;
     if (route_) return {};
-    if (auto others = store_->FindMeant(options_.route); others && !others->empty()) {
-      return tl::unexpected(NotOffered(options_.store_file, std::move(*others), options_));
-    }
     std::vector<std::string> names;
     if (auto routes = store_->ListRoutes()) {
       for (const route::RouteInfo& info : *routes) names.push_back(info.name);
     }
-    return Fail(ErrorCode::kNotFound, "{}",
-                route::NoRouteText(options_.store_file, options_.route, names));
+    const auto others = store_->FindMeant(options_.route);
+    return tl::unexpected(NotThere(
+        options_.store_file, others.value_or(std::vector<route::RouteInfo>()), names, options_));
   }
   waiting_for_ = fmt::format("waiting for a server that knows route '{}'", options_.route);
   spdlog::info("asking for route '{}'", options_.route);
@@ -104,32 +86,46 @@ Result<bool> FollowerLink::Asked(Time began, const std::optional<route::RouteInf
     route_ = finder_.announced();
   } else if (settled && own) {
     spdlog::warn("{}: following '{}' from {}",
-                 unknown ? "the server does not know the route" : "no server answers",
+                 unknown ? NotThere(*finder_.unknown(), options_).message : "no server answers",
                  options_.route, options_.store_file);
     route_ = own;
-  } else if (unknown && !finder_.unknown()->others.empty() && !options_.wait_for_route) {
-    return tl::unexpected(NotOffered(fmt::format("server '{}'", finder_.unknown()->server.value()),
-                                     finder_.unknown()->others, options_));
   } else if (unknown && !options_.wait_for_route) {
-    return Fail(ErrorCode::kNotFound, "{}",
-                route::NoRouteText(fmt::format("server '{}'", finder_.unknown()->server.value()),
-                                   options_.route, finder_.unknown()->similar_names));
+    return tl::unexpected(NotThere(*finder_.unknown(), options_));
   } else if (waited > options_.wait) {
-    if (finder_.unknown()) {
-      return Fail(ErrorCode::kNotFound, "nobody taught route '{}' within {:.0f} s: server '{}' {}",
-                  options_.route, Seconds(options_.wait), finder_.unknown()->server.value(),
-                  finder_.error().empty() ? "does not know it" : finder_.error());
-    }
-    return Fail(
-        ErrorCode::kUnavailable,
-        "no server answered within {:.0f} s, and {} has no route '{}': is trailcast-server "
-        "running with the same --domain and --dds-tag? With --security: are this robot's keys "
-        "valid, and not revoked?",
-        Seconds(options_.wait), options_.store_file, options_.route);
-  } else if (finder_.unknown()) {
+    return tl::unexpected(WaitedInVain());
+  } else if (finder_.unknown() && finder_.unknown()->others.empty()) {
     waiting_for_ = fmt::format("waiting for a scout to teach route '{}'", options_.route);
+  } else if (finder_.unknown()) {
+    waiting_for_ =
+        "waiting for another revision: " + NotThere(*finder_.unknown(), options_).message;
   }
   return route_.has_value();
+}
+
+Error FollowerLink::WaitedInVain() const {
+  const auto& unknown = finder_.unknown();
+  const double waited_s = Seconds(options_.wait);
+  if (unknown && !unknown->others.empty()) {
+    return {ErrorCode::kNotFound, fmt::format("waited {:.0f} s in vain: {}", waited_s,
+                                              NotThere(*unknown, options_).message)};
+  }
+  if (unknown) {
+    return {ErrorCode::kNotFound,
+            fmt::format("nobody taught route '{}' within {:.0f} s: server '{}' {}", options_.route,
+                        waited_s, unknown->server.value(),
+                        finder_.error().empty() ? "does not know it" : finder_.error())};
+  }
+  if (!finder_.error().empty()) {
+    return {ErrorCode::kUnavailable,
+            fmt::format("no server could say within {:.0f} s which revision of route '{}' is "
+                        "meant: {}",
+                        waited_s, options_.route, finder_.error())};
+  }
+  return {ErrorCode::kUnavailable,
+          fmt::format("no server answered within {:.0f} s, and {} has no route '{}': is "
+                      "trailcast-server running with the same --domain and --dds-tag? With "
+                      "--security: are this robot's keys valid, and not revoked?",
+                      waited_s, options_.store_file, options_.route)};
 }
 
 }  // namespace trailcast::agent

@@ -135,7 +135,13 @@ Result<route::RouteInfo> Atlas::Ask(fleet::OperatorPeer& peer, const Wanted& wan
   } else if (!of_it.empty()) {
     info = of_it.front();
   }
-  if (!info) return Fail(ErrorCode::kNotFound, "no server has this route, or this revision of it");
+  if (!info && of_it.empty()) {
+    return Fail(ErrorCode::kNotFound, "no server has this route, or this revision of it");
+  }
+  if (!info) {
+    return tl::unexpected(exchange::NotMeant(fmt::format("server '{}'", reply->server.value()),
+                                             of_it.front().name, of_it));
+  }
   if (info->state == route::RouteState::kComplete) return *std::move(info);
   return Fail(ErrorCode::kConflict, "{} is still being taught: it is drawn when that has ended",
               route::Describe(*info));

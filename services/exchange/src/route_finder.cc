@@ -8,9 +8,21 @@
 #include <variant>
 
 #include "services/base/unix_time.h"
+#include "services/route/labels.h"
 #include "services/route/route_ref.h"
 
 namespace trailcast::exchange {
+namespace {
+
+constexpr std::size_t kMostNamed = 4;  // revisions in one message
+
+std::vector<route::RouteInfo> NewestFirst(std::vector<route::RouteInfo> revisions) {
+  std::sort(revisions.begin(), revisions.end(),
+            [](const auto& a, const auto& b) { return a.revision > b.revision; });
+  return revisions;
+}
+
+}  // namespace
 
 std::optional<route::RouteInfo> ChooseRoute(const std::vector<route::RouteInfo>& routes,
                                             const RevisionChoice& which) {
@@ -55,10 +67,10 @@ std::vector<route::RouteInfo> FindRivals(const std::vector<route::RouteInfo>& ro
 
 tl::unexpected<Error> Ambiguous(const std::string& name_or_id,
                                 const std::vector<route::RouteInfo>& rivals) {
-  constexpr std::size_t kShown = 4;
   const route::ShortIds ids(rivals);
   std::string shown;
-  for (const route::RouteInfo& info : std::span(rivals).first(std::min(kShown, rivals.size()))) {
+  for (const route::RouteInfo& info :
+       std::span(rivals).first(std::min(kMostNamed, rivals.size()))) {
     shown += fmt::format("{}{} '{}' of scout '{}' ({}, {})", shown.empty() ? "" : "; ",
                          ids.Of(info), info.name, info.scout.value(), DateText(info.taught_unix_ms),
                          info.length_m > 0.0 ? fmt::format("{:.1f} m", info.length_m)
@@ -66,7 +78,44 @@ tl::unexpected<Error> Ambiguous(const std::string& name_or_id,
   }
   return Fail(ErrorCode::kConflict,
               "'{}' may be any of {} routes, give the id of one instead: {}{}", name_or_id,
-              rivals.size(), shown, rivals.size() > kShown ? "; .." : "");
+              rivals.size(), shown, rivals.size() > kMostNamed ? "; .." : "");
+}
+
+std::string NotMeantText(const std::string& holder, const std::string& name_or_id,
+                         const std::vector<route::RouteInfo>& others, const RevisionChoice& which) {
+  const auto newest_first = NewestFirst(others);
+  const route::ShortIds ids(newest_first);
+  std::vector<std::string> shown;
+  for (const route::RouteInfo& info :
+       std::span(newest_first).first(std::min(kMostNamed, newest_first.size()))) {
+    shown.push_back(fmt::format("{} ({})", ids.Of(info), route::StateText(info)));
+  }
+  if (newest_first.size() > kMostNamed) shown.emplace_back("..");
+  return fmt::format(
+      "{} has no {} of route '{}'{}; it has {}", holder,
+      which.number != 0 ? fmt::format("revision {}", which.number) : "active revision", name_or_id,
+      which.scout.empty() ? "" : fmt::format(" of scout '{}'", which.scout),
+      fmt::join(shown, ", "));
+}
+
+Error NotMeant(const std::string& holder, const std::string& name_or_id,
+               const std::vector<route::RouteInfo>& others, const RevisionChoice& which) {
+  std::string text = NotMeantText(holder, name_or_id, others, which);
+  if (which.number != 0) return {ErrorCode::kNotFound, std::move(text)};
+  const auto newest_first = NewestFirst(others);
+  const route::RouteInfo& newest = newest_first.front();
+  const std::string id = route::ShortIds(newest_first).Of(newest);
+  const bool is_cut_off = newest.cut_off && newest.standing == route::Standing::kStaged;
+  if (is_cut_off) {
+    text +=
+        ": its teaching was cut off, and robots follow no revision of it; teach it again, or "
+        "finish it with 'trailcast-agent teach --unfinished go-on'";
+  }
+  text += fmt::format(
+      "{} 'trailcast routes activate {}' has robots follow {}, and {} in place of the name means "
+      "it alone",
+      is_cut_off ? ";" : ":", id, is_cut_off ? "it as far as it goes" : "it", id);
+  return {ErrorCode::kNotFound, std::move(text)};
 }
 
 Result<std::optional<route::RouteInfo>> ChooseMeant(const std::string& name_or_id,
@@ -107,7 +156,9 @@ void RouteFinder::Learn(const exchange::CatalogReply& reply) {
   if (!rivals_.empty()) return;
   found_ = ChooseRoute(meant, which_);
   if (found_) return;
-  unknown_ = Unknown{reply.server, reply.similar_names, meant};
+  const bool others_have_more =
+      unknown_ && unknown_->server != reply.server && !unknown_->others.empty() && meant.empty();
+  if (!others_have_more) unknown_ = Unknown{reply.server, reply.similar_names, meant};
   if (unknown_to_.size() < kMaxAnnounced) unknown_to_.insert(reply.server);
 }
 

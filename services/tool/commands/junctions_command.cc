@@ -78,11 +78,13 @@ Result<route::RouteInfo> Meant(store::RouteStore& store, const std::string& text
   auto found = exchange::ChooseMeant(ref->route, *infos, {.number = ref->revision});
   if (!found) return tl::unexpected(found.error());
   auto& chosen = *found;
+  if (!chosen && !infos->empty()) {
+    return tl::unexpected(
+        exchange::NotMeant("the store", ref->route, *infos, {.number = ref->revision}));
+  }
   if (!chosen || chosen->state != route::RouteState::kComplete) {
     return Fail(ErrorCode::kNotFound,
-                "the store has no complete route '{}' that is in use: see "
-                "'trailcast routes'",
-                text);
+                "the store has no complete route '{}': see 'trailcast routes'", text);
   }
   return std::move(*chosen);
 }

@@ -78,12 +78,21 @@ route::RouteQuery QueryOf(const RoutesOptions& options, std::int64_t now_unix_ms
   return query;
 }
 
-// Reports that no route has that name, with the names that there are, as a failure.
-int ShowNone(const CLI::App& app, const std::string& name, const exchange::CatalogReply& reply) {
+// Reports that no route has that name, with the names that there are, as a failure. What else is
+// asked for may exclude a route of that name.
+int ShowNone(const CLI::App& app, const route::RouteQuery& query,
+             const exchange::CatalogReply& reply) {
+  const std::string holder = fmt::format("server '{}'", reply.server.value());
+  const route::RouteQuery name_alone{.name = query.name, .order = query.order};
+  if (query == name_alone) {
+    return program::Complain(
+        app, {ErrorCode::kNotFound, route::NoRouteText(holder, query.name, reply.similar_names)});
+  }
   return program::Complain(
-      app,
-      {ErrorCode::kNotFound, route::NoRouteText(fmt::format("server '{}'", reply.server.value()),
-                                                name, reply.similar_names)});
+      app, {ErrorCode::kNotFound,
+            fmt::format("{} has no route '{}' of which all that is asked for is true: 'trailcast "
+                        "routes --name {}' lists it, if there is one",
+                        holder, query.name, query.name)});
 }
 
 // Studies the complete ones among these routes.
@@ -149,7 +158,7 @@ int Run(const CLI::App& app, const program::CommonOptions& common, const RoutesO
       fleet::AskForRoutes(*peer->exchange, peer->self, query, options.limit, timeout);
   if (!reply) return program::Complain(app, reply.error());
   const std::vector<route::RouteInfo>& routes = reply->page.routes;
-  if (!query.name.empty() && routes.empty()) return ShowNone(app, query.name, *reply);
+  if (!query.name.empty() && routes.empty()) return ShowNone(app, query, *reply);
   Result<fleet::RouteStudies> studies;
   if (options.looked_into) studies = Study(*peer, routes, timeout);
   if (!studies) return program::Complain(app, studies.error());

@@ -89,10 +89,11 @@ Result<Graph::Node> Graph::Find(std::string_view id) const {
     return place && each.id == place->route;
   });
   if (route == routes.end() || word.size() > kLongestGoal) {
-    return Fail(ErrorCode::kNotFound,
-                "there is no node '{}': a nodeId is a place's name, or ROUTE:METRES, as hall:2.5 "
-                "('trailcast network' lists both)",
-                PlainText(id, 64));
+    return Fail(
+        ErrorCode::kNotFound,
+        "there is no node '{}': a nodeId is a place's name, or ROUTE:METRES on a route that "
+        "robots follow, as hall:2.5 ('trailcast network' lists both)",
+        PlainText(id, 64));
   }
   if (place->along_m > route->length_m + network::kSame_m) {
     return Fail(ErrorCode::kNotFound, "there is no node '{}': route {} is {:.2f} m long",

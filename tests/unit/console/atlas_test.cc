@@ -101,6 +101,19 @@ TEST_F(AtlasTest, WhatIsNotThereIsSaid) {
   EXPECT_EQ(other.error().code, ErrorCode::kNotFound);
 }
 
+TEST_F(AtlasTest, OfARouteThatRobotsDoNotFollowItIsSaid) {
+  TaughtRoute hall = Hold(2);
+  hall.info.cut_off = true;
+  store_ = store::OpenSqliteStore(folder_ / "other.db").value();
+  ASSERT_TRUE(store_->AppendSegments(hall.pieces));
+  ASSERT_TRUE(store_->PutRoute(hall.info));
+  Serve();
+  const auto active = atlas_.Find(hall.info.key.route, std::nullopt, test::kLongEnough);
+  ASSERT_FALSE(active);
+  EXPECT_EQ(active.error().code, ErrorCode::kNotFound);
+  EXPECT_THAT(active.error().message, HasSubstr("(cut off): its teaching was cut off"));
+}
+
 TEST_F(AtlasTest, WithoutAServerItSaysSoAndTriesAgainLater) {
   Atlas impatient([this] { return Join(); }, milliseconds(100));
   const auto found = impatient.Find(RouteId(std::string(32, 'a')), std::nullopt, test::kLongEnough);

@@ -204,6 +204,50 @@ TEST(ChooseRoute, TakesWhatWasRetiredWithoutAnOperatorByItsNumberOnly) {
   EXPECT_EQ(ChooseRoute({retired, before}, {.number = 2}), retired);
 }
 
+TEST(NotMeant, SaysWhatThereIsAndWhatToDo) {
+  RouteInfo review = Info("hall", 1, 10, RouteState::kComplete);
+  review.to_review = true;
+  RouteInfo cut_off = Info("hall", 2, 20, RouteState::kComplete);
+  cut_off.cut_off = true;
+  const std::string first = route::ShortIds().Of(review);
+  const std::string second = route::ShortIds().Of(cut_off);
+  const Error reviewed = NotMeant("server 'barn'", "hall", {review});
+  EXPECT_EQ(reviewed.code, ErrorCode::kNotFound);
+  EXPECT_EQ(reviewed.message, "server 'barn' has no active revision of route 'hall'; it has " +
+                                  first + " (to be reviewed): 'trailcast routes activate " + first +
+                                  "' has robots follow it, and " + first +
+                                  " in place of the name means it alone");
+  EXPECT_EQ(NotMeant("server 'barn'", "hall", {review, cut_off}).message,
+            "server 'barn' has no active revision of route 'hall'; it has " + second +
+                " (cut off), " + first +
+                " (to be reviewed): its teaching was cut off, and robots follow no revision of it; "
+                "teach it again, or finish it with 'trailcast-agent teach --unfinished go-on'; "
+                "'trailcast routes activate " +
+                second + "' has robots follow it as far as it goes, and " + second +
+                " in place of the name means it alone");
+  EXPECT_EQ(
+      NotMeant("robot.db", "hall", {cut_off}, {.number = 7, .scout = "jo"}).message,
+      "robot.db has no revision 7 of route 'hall' of scout 'jo'; it has " + second + " (cut off)");
+  const std::vector many(6, Standing(review, route::Standing::kRetired));
+  EXPECT_THAT(NotMeantText("robot.db", "hall", many), testing::EndsWith("(retired), .."));
+}
+
+TEST_F(RouteFinderTest, AServerThatHasRevisionsCountsMoreThanOneThatHasNone) {
+  Ask(milliseconds(0));
+  const AgentId other("other");
+  RouteInfo cut_off = Info("hall", 1, 10, RouteState::kComplete);
+  cut_off.cut_off = true;
+  finder_.Handle(CatalogReply{other, kSelf, 1, {.routes = {cut_off}}, {}, ""});
+  finder_.Handle(CatalogReply{kServer, kSelf, 1, {}, {"mall"}, ""});
+  ASSERT_TRUE(finder_.unknown());
+  EXPECT_EQ(finder_.unknown()->server, other);
+  EXPECT_THAT(finder_.unknown()->others, ElementsAre(cut_off));
+  EXPECT_TRUE(finder_.IsUnknownTo({kServer, other}));
+  Ask(milliseconds(1000));
+  finder_.Handle(CatalogReply{other, kSelf, 2, {}, {}, ""});
+  EXPECT_TRUE(finder_.unknown()->others.empty()) << "it has been deleted there meanwhile";
+}
+
 TEST_F(RouteFinderTest, TellsNoneActiveFromNoneThere) {
   Ask(milliseconds(0));
   const auto retired =

@@ -53,6 +53,14 @@ TEST(ChooseForExport, RefusesANameThatTwoScoutsGave) {
   EXPECT_EQ(ChooseForExport(reply, "fffffff", {}, "it").value(), other);
 }
 
+TEST(ChooseForExport, SaysThatATeachingWasCutOff) {
+  route::RouteInfo cut_off = Revision(1, route::RouteState::kComplete);
+  cut_off.cut_off = true;
+  EXPECT_THAT(ChooseForExport(ReplyOf({cut_off}), "hall", {}, "it").error().message,
+              testing::AllOf(HasSubstr("it has no active revision of route 'hall'; it has "),
+                             HasSubstr("@1 (cut off): say which with --revision")));
+}
+
 TEST(ChooseForExport, NamesWhatThereIsInstead) {
   exchange::CatalogReply reply;
   reply.similar_names = {"hall", "hull"};

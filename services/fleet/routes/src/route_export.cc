@@ -79,9 +79,8 @@ Result<route::RouteInfo> ChooseForExport(const exchange::CatalogReply& reply,
   if (!found) return tl::unexpected(found.error());
   auto& chosen = *found;
   if (!chosen) {
-    return Fail(ErrorCode::kInvalidArgument,
-                "{} has no active revision of route '{}'{}: say which with --revision", holder,
-                name_or_id, which.scout.empty() ? "" : " of scout '" + which.scout + "'");
+    return Fail(ErrorCode::kInvalidArgument, "{}: say which with --revision",
+                exchange::NotMeantText(holder, name_or_id, fitting, which));
   }
   if (chosen->state == route::RouteState::kComplete) return std::move(*chosen);
   return Fail(

@@ -299,6 +299,48 @@ TEST_F(FollowerTest, NamesTheRoutesThereAreWhenItsOwnIsNotAmongThem) {
   EXPECT_EQ(device_.next, 0);
 }
 
+TEST_F(FollowerTest, SaysThatTheTeachingWasCutOffWhenNobodyFinishesIt) {
+  swarm_.StartServer();
+  WalkDevice scout(kFrames);
+  scout.before_frame = [](int frame) -> Result<void> {
+    if (frame < 110) return {};
+    return Fail(ErrorCode::kUnavailable, "the camera is unplugged");
+  };
+  ASSERT_FALSE(swarm_.Teach(scout, swarm_.ScoutNamed("scout"), true));
+  auto options = swarm_.FollowerNamed("robot");
+  options.link.wait = milliseconds(2000);
+  const auto outcome = swarm_.Replay(device_, options, true);
+  ASSERT_TRUE(outcome && outcome->error);
+  EXPECT_EQ(outcome->error->code, ErrorCode::kNotFound);
+  EXPECT_THAT(outcome->reason,
+              AllOf(StartsWith("waited 2 s in vain: server 'server' has no active revision of "
+                               "route 'hall'; it has "),
+                    HasSubstr(" (cut off): its teaching was cut off, and robots follow no revision "
+                              "of it; teach it again, or finish it")));
+  EXPECT_EQ(device_.next, 0);
+}
+
+TEST_F(FollowerTest, SaysWhyAServerCouldNotAnswer) {
+  const auto server = swarm_.Join(exchange::ServerTopics());
+  auto options = swarm_.FollowerNamed("robot");
+  options.link.wait = milliseconds(2000);
+  auto following =
+      std::async(std::launch::async, [&] { return swarm_.Replay(device_, options, true); });
+  while (following.wait_for(milliseconds(0)) != std::future_status::ready) {
+    for (const exchange::Message& message : server->Take(milliseconds(5))) {
+      const auto* asked = std::get_if<exchange::CatalogRequest>(&message);
+      if (asked == nullptr) continue;
+      exchange::CatalogReply reply{AgentId("server"), asked->client, asked->request, {}, {}, {}};
+      reply.error = "the store is damaged";
+      EXPECT_TRUE(server->Publish(reply));
+    }
+  }
+  const auto outcome = following.get();
+  ASSERT_TRUE(outcome && outcome->error);
+  EXPECT_EQ(outcome->error->code, ErrorCode::kUnavailable);
+  EXPECT_THAT(outcome->reason, HasSubstr("route 'hall' is meant: the store is damaged"));
+}
+
 TEST_F(FollowerTest, SaysSoWhenNoServerAnswers) {
   auto options = swarm_.FollowerNamed("robot");
   options.link.wait = milliseconds(100);

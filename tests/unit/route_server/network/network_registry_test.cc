@@ -223,6 +223,22 @@ TEST_F(NetworkRegistryTest, OfWhatPassesNothingIsSaidTwiceNorOfOtherRevisionsTha
               HasSubstr("hall@1@12.5 is on a revision that robots do not follow"));
 }
 
+TEST_F(NetworkRegistryTest, OfARouteWhoseTeachingWasCutOffItIsSaid) {
+  route::RouteInfo attic =
+      test::InfoOf(Key(4), test::PiecesOf(Key(4), 2), route::RouteState::kComplete);
+  attic.name = "attic";
+  attic.cut_off = true;
+  ASSERT_TRUE(routes_.PutRoute(attic));
+  registry_->Note(attic);
+  const auto says_so =
+      AllOf(HasSubstr("the server has no active revision of route 'attic'"),
+            HasSubstr("its teaching was cut off, and robots follow no revision of it"));
+  EXPECT_THAT(Ask("passing attic@1").error, says_so);
+  EXPECT_THAT(Ask("way attic@1 hall@2").error, says_so);
+  EXPECT_THAT(Refused("join hall@12 attic@0"), says_so);
+  EXPECT_THAT(Refused("name bay attic@2"), says_so);
+}
+
 TEST_F(NetworkRegistryTest, ARouteThatComesBackIsToLeadFromItsEndToItsBeginning) {
   EXPECT_EQ(Propose({Key(3), Key(3), 0.0, 7.5, 0.5, -0.1, 0.97}),
             "proposed join ring@7.5 ring@0 both heading 5.7 confidence 0.97");
