@@ -30,10 +30,10 @@ struct Comparison {
 inline constexpr std::size_t kMostRegions = 12;
 
 // Aligns an earlier photo with a later one by their ORB features and a homography (RANSAC), and
-// marks what has changed, beyond the light as a whole. Fails with kConflict, which says why, if the
-// two do not show the same from nearly the same place, or all of it has changed. Nothing is said of
-// changes that are smaller than about a hundredth of the picture's width, or fainter than the
-// pictures' noise.
+// marks what has changed: what is unlike everything nearby in the other photo, beyond the light as
+// a whole. Fails with kConflict, which says why, if the two do not show the same from nearly the
+// same place, or nearly all of it has changed. Changes that are smaller than a thirtieth of the
+// picture, or fainter than what parallax and light leave, are not found.
 [[nodiscard]] Result<Comparison> Compare(const image::GrayImage& earlier,
                                          const image::GrayImage& later);
 

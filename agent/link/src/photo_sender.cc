@@ -52,8 +52,8 @@ void PhotoSender::Handle(const exchange::Message& message, Time now) {
     again_at_ = now + kAfterRefusal;
     return;
   }
-  refused_.clear();
   if (answer->kept) {
+    refused_.clear();
     folder_.Remove(photo_->id);
     return Begin();
   }

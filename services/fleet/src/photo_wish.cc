@@ -65,8 +65,11 @@ Result<std::string> OrdersWithPhotos(const std::string& orders, const mission::P
   if (!tasks) return tl::unexpected(tasks.error());
   auto going = mission::GoingIn(orders);
   if (going) going->photos = wish;
+  // Words that ask for no photos yet stay as they were typed.
+  const bool asked = mission::PhotosIn(orders).any();
   std::string with =
-      going ? ToText(*going, *tasks) : fmt::format("{} {}", ToText(wish), mission::ToText(*tasks));
+      going ? ToText(*going, *tasks)
+            : fmt::format("{} {}", ToText(wish), asked ? mission::ToText(*tasks) : orders);
   if (const auto understood = mission::ParseOrders(with); !understood) {
     return tl::unexpected(understood.error());
   }

@@ -12,8 +12,10 @@
 namespace trailcast::photos {
 namespace {
 
-// Pictures are compared at this width at most: what people can see in them is larger.
-constexpr int kMostWidth_px = 960;
+// Pictures are compared with longer sides of this length: what people can see in larger ones is
+// larger, too, and in smaller ones features at their own size are few.
+constexpr int kLonger_px = 640;
+constexpr int kLeastShorter_px = 64;
 constexpr int kFeatures = 1500;
 constexpr float kDistinct = 0.8F;  // of the best match's distance to the second best's
 constexpr double kAgrees_px = 3.0;
@@ -24,11 +26,20 @@ constexpr double kLeastOverlap = 0.5;
 // A robot that passes a spot again stands close to where it stood.
 constexpr double kLeastScale = 0.6;
 constexpr double kMostScale = 1.7;
-// What is near moves against what is far when the camera is beside its earlier place.
-constexpr int kSlack_px = 4;
-constexpr double kLeastContrast = 25.0;
-constexpr double kNoises = 5.0;  // times the median difference
-constexpr double kLeastArea = 1.0 / 1500.0;
+// Changes are sought in pictures that are reduced so often again.
+constexpr int kCoarser = 2;
+// What is near moves against what is far when the camera is beside its earlier place, by up to this
+// in the coarser picture, which is searched in steps.
+constexpr int kShift_px = 12;
+constexpr int kShiftStep_px = 2;
+constexpr int kWindow_px = 9;
+constexpr double kLeastContrast = 20.0;
+constexpr double kSureContrast = 50.0;  // is marked whatever the others are
+// Of all differences this share is taken for what parallax and light leave, and what is marked
+// exceeds it by that factor.
+constexpr double kUsual = 0.8;
+constexpr double kBeyondUsual = 2.5;
+constexpr double kLeastArea = 1.0 / 600.0;
 constexpr double kMostChanged = 0.4;
 
 cv::Mat ViewOf(const image::GrayImage& picture) {
@@ -36,18 +47,15 @@ cv::Mat ViewOf(const image::GrayImage& picture) {
 }
 
 double ScaleOf(const image::GrayImage& picture) {
-  return std::min(1.0, static_cast<double>(kMostWidth_px) / picture.width);
+  return static_cast<double>(kLonger_px) / std::max(picture.width, picture.height);
 }
 
-cv::Mat Reduced(const image::GrayImage& picture) {
+cv::Mat Resized(const image::GrayImage& picture) {
   const double scale = ScaleOf(picture);
-  cv::Mat reduced;
-  if (scale < 1.0) {
-    cv::resize(ViewOf(picture), reduced, {}, scale, scale, cv::INTER_AREA);
-  } else {
-    reduced = ViewOf(picture).clone();
-  }
-  return reduced;
+  cv::Mat resized;
+  cv::resize(ViewOf(picture), resized, {}, scale, scale,
+             scale < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC);
+  return resized;
 }
 
 struct Matched {
@@ -120,22 +128,26 @@ cv::Mat InLightOf(const cv::Mat& later, const cv::Mat& earlier, const cv::Mat& v
   return in_light;
 }
 
-// Returns by how much each pixel of `one` lies outside what `other` has around that place.
-cv::Mat Beyond(const cv::Mat& one, const cv::Mat& other) {
-  const cv::Mat around =
-      cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kSlack_px + 1, 2 * kSlack_px + 1});
-  cv::Mat most;
-  cv::Mat least;
-  cv::dilate(other, most, around);
-  cv::erode(other, least, around);
-  cv::Mat above;
-  cv::Mat below;
-  cv::subtract(one, most, above);
-  cv::subtract(least, one, below);
-  return cv::max(above, below);
+// Returns for each pixel of `one` by how much its surroundings differ from the likest ones that
+// `other` has nearby.
+cv::Mat Unlike(const cv::Mat& one, const cv::Mat& other) {
+  cv::Mat around;
+  cv::copyMakeBorder(other, around, kShift_px, kShift_px, kShift_px, kShift_px,
+                     cv::BORDER_REPLICATE);
+  cv::Mat least(one.size(), CV_8UC1, cv::Scalar(255));
+  cv::Mat off;
+  for (int y = 0; y <= 2 * kShift_px; y += kShiftStep_px) {
+    for (int x = 0; x <= 2 * kShift_px; x += kShiftStep_px) {
+      cv::absdiff(one, around(cv::Rect(x, y, one.cols, one.rows)), off);
+      cv::blur(off, off, {kWindow_px, kWindow_px});
+      cv::min(least, off, least);
+    }
+  }
+  return least;
 }
 
-double MedianOf(const cv::Mat& values, const cv::Mat& valid) {
+// Returns the value that the usual share of all does not exceed.
+double UsualOf(const cv::Mat& values, const cv::Mat& valid) {
   std::vector<std::uint8_t> all;
   for (int y = 0; y < values.rows; ++y) {
     for (int x = 0; x < values.cols; ++x) {
@@ -143,12 +155,13 @@ double MedianOf(const cv::Mat& values, const cv::Mat& valid) {
     }
   }
   if (all.empty()) return 0.0;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return *middle;
+  const auto usual =
+      all.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(all.size() - 1));
+  std::nth_element(all.begin(), usual, all.end());
+  return *usual;
 }
 
-// Returns the blobs of what has changed, in pixels of the reduced picture.
+// Returns the blobs of what has changed, in pixels of the resized picture.
 std::vector<ChangedRegion> Blobs(const cv::Mat& difference, const cv::Mat& changed) {
   cv::Mat labels;
   cv::Mat stats;
@@ -174,21 +187,21 @@ std::vector<ChangedRegion> Blobs(const cv::Mat& difference, const cv::Mat& chang
   return regions;
 }
 
-cv::Mat Smoothed(const cv::Mat& picture) {
-  constexpr int kBlur_px = 5;
-  cv::Mat smooth;
-  cv::GaussianBlur(picture, smooth, {kBlur_px, kBlur_px}, 0.0);
-  return smooth;
-}
-
 }  // namespace
 
 Result<Comparison> Compare(const image::GrayImage& earlier, const image::GrayImage& later) {
   if (earlier.empty() || later.empty()) {
     return Fail(ErrorCode::kInvalidArgument, "one of the two photos has no pixels");
   }
-  const cv::Mat before = Reduced(earlier);
-  const cv::Mat now = Reduced(later);
+  for (const image::GrayImage* picture : {&earlier, &later}) {
+    const int shorter = std::min(picture->width, picture->height);
+    if (shorter * ScaleOf(*picture) < kLeastShorter_px) {
+      return DoNotAlign(
+          fmt::format("one of them is a strip, of {}x{} pixels", picture->width, picture->height));
+    }
+  }
+  const cv::Mat before = Resized(earlier);
+  const cv::Mat now = Resized(later);
   const Matched matched = Match(before, now);
   const auto pairs = static_cast<int>(matched.earlier.size());
   if (pairs < kLeastAgreeing) {
@@ -213,22 +226,28 @@ Result<Comparison> Compare(const image::GrayImage& earlier, const image::GrayIma
   cv::warpPerspective(before, aligned, homography, now.size());
   cv::warpPerspective(cv::Mat(before.size(), CV_8UC1, cv::Scalar(255)), valid, homography,
                       now.size(), cv::INTER_NEAREST);
-  cv::erode(valid, valid, cv::Mat(), {-1, -1}, kSlack_px + 2, cv::BORDER_CONSTANT, cv::Scalar(0));
-  const double overlap = cv::countNonZero(valid) / static_cast<double>(now.total());
+  const cv::Size coarse{now.cols / kCoarser, now.rows / kCoarser};
+  cv::resize(valid, valid, coarse, 0.0, 0.0, cv::INTER_NEAREST);
+  const double overlap = cv::countNonZero(valid) / static_cast<double>(valid.total());
   if (overlap < kLeastOverlap) {
     return DoNotAlign(fmt::format("they have {:.0f} % of the picture in common", 100.0 * overlap));
   }
-  const cv::Mat smooth = Smoothed(now);
-  const cv::Mat lit = InLightOf(smooth, Smoothed(aligned), valid);
-  cv::Mat difference = cv::max(Beyond(smooth, lit), Beyond(lit, smooth));
+  // The edge of the earlier picture is no change.
+  cv::erode(valid, valid, cv::Mat(), {-1, -1}, kShift_px, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::Mat later_coarse;
+  cv::Mat earlier_coarse;
+  cv::resize(now, later_coarse, coarse, 0.0, 0.0, cv::INTER_AREA);
+  cv::resize(aligned, earlier_coarse, coarse, 0.0, 0.0, cv::INTER_AREA);
+  const cv::Mat lit = InLightOf(later_coarse, earlier_coarse, valid);
+  cv::Mat difference = cv::max(Unlike(later_coarse, lit), Unlike(lit, later_coarse));
   difference.setTo(0, ~valid);
-  const double median = MedianOf(difference, valid);
-  cv::Mat changed = difference > std::max(kLeastContrast, kNoises * median);
-  cv::morphologyEx(changed, changed, cv::MORPH_OPEN, cv::Mat());
-  constexpr int kJoin_px = 9;
+  const double usual = UsualOf(difference, valid);
+  cv::Mat changed = difference > std::clamp(kBeyondUsual * usual, kLeastContrast, kSureContrast);
+  constexpr int kJoin_px = 5;
   cv::morphologyEx(changed, changed, cv::MORPH_CLOSE,
                    cv::getStructuringElement(cv::MORPH_ELLIPSE, {kJoin_px, kJoin_px}));
-  const double share = cv::countNonZero(changed) / (overlap * static_cast<double>(now.total()));
+  const double share =
+      cv::countNonZero(changed) / std::max(1.0, static_cast<double>(cv::countNonZero(valid)));
   if (share > kMostChanged) {
     return DoNotAlign(
         fmt::format("{:.0f} % of what they have in common looks otherwise, as by "
@@ -239,7 +258,7 @@ Result<Comparison> Compare(const image::GrayImage& earlier, const image::GrayIma
   comparison.changes = Blobs(difference, changed);
   const double scale = ScaleOf(later);
   for (ChangedRegion& region : comparison.changes) {
-    const auto full = [&](int px) { return static_cast<int>(std::lround(px / scale)); };
+    const auto full = [&](int px) { return static_cast<int>(std::lround(kCoarser * px / scale)); };
     region.x = full(region.x);
     region.y = full(region.y);
     region.width = std::min(full(region.width), later.width - region.x);
@@ -247,14 +266,14 @@ Result<Comparison> Compare(const image::GrayImage& earlier, const image::GrayIma
   }
   // For people at full size, with the earlier photo's own light.
   const double earlier_scale = ScaleOf(earlier);
-  const cv::Mat to_reduced =
+  const cv::Mat to_resized =
       (cv::Mat_<double>(3, 3) << earlier_scale, 0, 0, 0, earlier_scale, 0, 0, 0, 1);
   const cv::Mat to_full = (cv::Mat_<double>(3, 3) << 1 / scale, 0, 0, 0, 1 / scale, 0, 0, 0, 1);
   comparison.earlier = {
       later.width, later.height,
       std::vector<std::uint8_t>(static_cast<std::size_t>(later.width) * later.height)};
   cv::Mat full = ViewOf(comparison.earlier);
-  cv::warpPerspective(ViewOf(earlier), full, to_full * homography * to_reduced, full.size());
+  cv::warpPerspective(ViewOf(earlier), full, to_full * homography * to_resized, full.size());
   return comparison;
 }
 

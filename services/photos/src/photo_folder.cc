@@ -61,8 +61,10 @@ void PhotoFolder::Load() {
     const auto written = entry->last_write_time(gone);
     if (!gone) found.push_back({written, *std::move(photo)});
   }
-  std::sort(found.begin(), found.end(),
-            [](const Found& a, const Found& b) { return a.written < b.written; });
+  std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+    return std::pair(a.written, a.photo.taken_unix_ms) <
+           std::pair(b.written, b.photo.taken_unix_ms);
+  });
   for (Found& each : found) Note(std::move(each.photo));
   for (const std::string& id : pictures) {
     std::error_code stays;

@@ -64,7 +64,7 @@ TEST(PhotoPlan, TakesOneOfEachPlaceOnItsRouteAndRevision) {
       PlanOf("photo at b=hall@4.1 at hall@4 at hall@2@1 at hall@3@2 at yard@3 follow hall");
   EXPECT_THAT(plan.Photographed(), IsEmpty());
   EXPECT_THAT(Drive(plan, 0.0, 4.05), ElementsAre(2.0, 4.0));
-  EXPECT_THAT(plan.Photographed(), ElementsAre("hall@4", "hall@3@2"));
+  EXPECT_THAT(plan.Photographed(), ElementsAre("hall@3@2", "hall@4"));
   EXPECT_THAT(Drive(plan, 4.05, 6.0), ElementsAre(4.1));
   EXPECT_THAT(plan.Photographed(), SizeIs(3));
 }
