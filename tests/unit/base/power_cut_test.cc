@@ -193,7 +193,8 @@ TEST(PowerCut, OfAFileThatIsReplacedTheOldOrTheNewIsThere) {
   for (const std::string old : {"old", "absent"}) {
     for (const Fate fate : {Fate::kPowerGoes, Fate::kCallFails}) {
       bool struck = true;
-      for (int call = 0; struck; ++call) {
+      int call = 0;
+      for (; struck; ++call) {
         const test::TempDir folder;
         const fs::path file = folder / "alerts";
         if (old != "absent") std::ofstream(file) << old;
@@ -214,7 +215,8 @@ TEST(PowerCut, OfAFileThatIsReplacedTheOldOrTheNewIsThere) {
         ASSERT_TRUE(ReplaceFile(file, "newer")) << "the disk is well again";
         EXPECT_THAT(platter.Found(file.string()), testing::ElementsAre("newer"));
       }
-      EXPECT_FALSE(struck);
+      constexpr int kLeast = 7;  // makes, writes, syncs and renames it, and syncs its folder
+      EXPECT_GT(call, kLeast) << "its calls do not come here";
     }
   }
 }

@@ -90,7 +90,7 @@ class Batch {
     return outcome;
   }
 
-  // What is not there is not there whatever it is for.
+  // Nobody needs to know for what a file is that is not there.
   static tl::unexpected<Error> About(const Error& error, const std::string& doing) {
     if (error.code == ErrorCode::kNotFound) return tl::unexpected(error);
     return Wrap(error, doing);
