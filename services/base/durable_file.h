@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -15,6 +16,11 @@ namespace trailcast {
 // file.
 [[nodiscard]] Result<void> ReplaceFile(const std::filesystem::path& file, const std::string& text,
                                        mode_t mode = 0644);
+
+// Reads a whole file. Errors name it: kNotFound, kUnavailable for one that cannot be read, kCorrupt
+// for one that is larger than `most_bytes`, and for a folder, a pipe or a device.
+[[nodiscard]] Result<std::string> ReadBoundedFile(const std::filesystem::path& file,
+                                                  std::size_t most_bytes);
 
 // Returns once a file's contents, or the names in a folder, are on the disk.
 [[nodiscard]] std::error_code SyncToDisk(const std::filesystem::path& path);

@@ -48,6 +48,7 @@ class Desk {
     std::function<void(std::string)> keep_alerts{};
     // This gets all alerts, and the last missions, several times a second, likewise.
     std::function<void(nlohmann::ordered_json alerts, nlohmann::ordered_json missions)> look{};
+    std::function<void(http::MetricsText& text)> measure{};  // adds metrics, on any thread
   };
   // So many errands, apart from stops, are under way at once. More are refused.
   static constexpr std::size_t kMostErrands = 16;

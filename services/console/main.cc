@@ -144,6 +144,7 @@ int Serve(const CLI::App& app, const program::CommonOptions& common, const WebOp
     desk_options.look = [&](program::Json all_alerts, program::Json missions) {
       (*courier)->Look(std::move(all_alerts), std::move(missions));
     };
+    desk_options.measure = [&](trailcast::http::MetricsText& text) { (*courier)->Measure(text); };
   }
   console::Desk desk(peer->self, std::move(peer->exchange), std::move(desk_options));
   console::Atlas atlas([&] {

@@ -85,7 +85,7 @@ class RouteFinder {
     std::vector<std::string> similar_names;
     std::vector<route::RouteInfo> others{};  // of this name, but none of them is meant
   };
-  // Of several servers' answers, one that has revisions of the route counts more.
+  // An answer with revisions of the route counts more than one without, of several servers.
   [[nodiscard]] const std::optional<Unknown>& unknown() const { return unknown_; }
   // Tells that all of `servers` have said so.
   [[nodiscard]] bool IsUnknownTo(const std::set<AgentId>& servers) const;

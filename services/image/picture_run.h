@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,10 +23,11 @@ class PictureRun {
   // Returns how many times the decoded width and height the camera's last picture has.
   [[nodiscard]] int reduced() const { return reduced_; }
 
-  // Returns how the next picture is to be turned, 1 to 8 as Exif numbers it (1: not at all). The
-  // first picture decides, because a robot's camera is fixed, while phones write into each picture
-  // how they believe to be held and change their mind on the way.
-  [[nodiscard]] int Orientation(std::span<const std::uint8_t> picture);
+  // Returns how the next picture is to be turned, 1 to 8 as Exif numbers it (1: not at all), where
+  // that picture itself says `told`, or nothing. The first picture that says something decides,
+  // because a robot's camera is fixed, while phones write into each picture how they believe to be
+  // held and change their mind on the way.
+  [[nodiscard]] int Orientation(std::optional<int> told);
 
   // Returns how many of a picture's 16 bits are a pixel's, if its brightest pixel needs `needed`:
   // sensors have 10, 12, 14 or 16. The number never falls during a run.

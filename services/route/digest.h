@@ -34,8 +34,6 @@ class Sha256Stream {
 // and `next`, that segment's digest: SHA-256 of both. The one before the first segment is zero. Two
 // routes have the same one if these segments are the same.
 [[nodiscard]] Digest ChainDigest(const Digest& before, const Digest& next);
-// Returns lower-case hexadecimal.
-[[nodiscard]] std::string ToHex(const Digest& digest);
 
 // Encodes and hashes a segment. A scout stores and publishes the result.
 [[nodiscard]] SegmentPiece MakePiece(const RouteKey& key, const Segment& segment);

@@ -11,7 +11,8 @@
 
 namespace trailcast::users {
 
-// Errors: kNotFound if there is no such file, kCorrupt if it has no users' lines.
+// Errors: kNotFound if there is no such file, kUnavailable if it cannot be read, kCorrupt if it has
+// other than users' lines.
 [[nodiscard]] Result<Users> LoadUsers(const std::filesystem::path& file);
 
 // Changes the file, or makes it. Only its owner may read it; if root made it, it belongs to the

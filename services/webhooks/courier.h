@@ -1,17 +1,21 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "services/base/result.h"
+#include "services/http/metrics_text.h"
 #include "services/webhooks/outbox.h"
 
 namespace trailcast::webhooks {
@@ -46,6 +50,8 @@ class Courier {
   // Hands over what alerts and missions are there now, as openapi.yaml has them, and waits for
   // nothing. Only the latest is looked at.
   void Look(nlohmann::ordered_json alerts, nlohmann::ordered_json missions);
+  // Adds how many events wait, and how many were dropped since the start.
+  void Measure(http::MetricsText& text) const;
 
  private:
   struct Seen;
@@ -53,6 +59,7 @@ class Courier {
   void Run();
   void Serve();
   void Deliver(const Outbox::Delivery& delivery);
+  void Add(const Event& event, std::int64_t now_ms);
   void Keep();
 
   const std::vector<Hook> hooks_;
@@ -60,9 +67,13 @@ class Courier {
   const Parts parts_;
   Outbox outbox_;  // the thread's own, as are those below
   EventFinder finder_;
-  std::unique_ptr<Seen> last_;  // most looks show what the one before has shown
-  std::string kept_;            // the file's content
-  std::string trouble_;         // as it was last told
+  std::set<std::size_t> overflowing_;  // hooks, until one of their events arrives
+  std::unique_ptr<Seen> last_;         // most looks show what the one before has shown
+  std::string kept_;                   // the file's content
+  std::string trouble_;                // as it was last told
+
+  std::atomic<std::uint64_t> waiting_count_{0};  // of the outbox, for any thread
+  std::atomic<std::uint64_t> dropped_count_{0};
 
   std::mutex mutex_;  // guards what follows
   bool over_ = false;

@@ -27,7 +27,8 @@ class Outbox {
 
   explicit Outbox(const std::vector<Hook>& hooks);
 
-  void Add(const Event& event, std::int64_t unix_ms);
+  // Returns the hooks for which their oldest event was dropped, by their places in the list.
+  std::vector<std::size_t> Add(const Event& event, std::int64_t unix_ms);
 
   struct Delivery {
     std::size_t hook = 0;  // its place in the list of hooks

@@ -53,7 +53,7 @@ void Fleet::Resume(Role role, Member& member) {
   if (role == Role::kFollower) return Follow(member);
   std::vector<route::RouteInfo> taught;
   if (const auto store = store::OpenSqliteStore(ScoutsStore())) {
-    taught = (*store)->ListRoutes().value_or(std::move(taught));
+    taught = (*store)->ListRoutes().value_or(taught);
   }
   if (taught.empty()) return Teach();
   teaching_cut_off_ =

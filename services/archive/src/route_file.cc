@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "services/archive/src/layout.h"
+#include "services/base/hex.h"
 #include "services/route/codec.h"
 #include "services/route/digest.h"
 #include "services/route/info_codec.h"
@@ -99,7 +100,7 @@ class RouteFileChecker {
     if (actual == expected) return {};
     return Refuse(
         "it is damaged: its bytes have checksum {:.12}.., expected {:.12}..; copy it again",
-        route::ToHex(actual), route::ToHex(expected));
+        ToHex(actual), ToHex(expected));
   }
 
   Result<void> ReadInfo() {
@@ -169,7 +170,7 @@ class RouteFileChecker {
     const route::Digest manifest = route::ManifestDigest(digests);
     if (manifest == file_.info_.manifest_digest) return {};
     return Refuse("its segments are not those of its manifest: digest {:.12}.., expected {:.12}..",
-                  route::ToHex(manifest), route::ToHex(file_.info_.manifest_digest));
+                  ToHex(manifest), ToHex(file_.info_.manifest_digest));
   }
 
   RouteFile& file_;

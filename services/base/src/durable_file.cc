@@ -1,8 +1,10 @@
 #include "services/base/durable_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 
 namespace trailcast {
@@ -34,7 +36,42 @@ std::error_code WriteFresh(const std::string& fresh, const std::string& text, mo
   return error;
 }
 
+// Fails with EFBIG if there are more than `most_bytes`.
+std::error_code ReadAll(int descriptor, std::size_t most_bytes, std::string& text) {
+  constexpr std::size_t kPart = 64U << 10U;
+  for (ssize_t got = 1; got != 0;) {
+    const std::size_t held = text.size();
+    if (held > most_bytes) return std::make_error_code(std::errc::file_too_large);
+    text.resize(held + std::min(kPart, most_bytes + 1 - held));
+    got = read(descriptor, text.data() + held, text.size() - held);
+    const std::error_code error = got < 0 ? LastError() : std::error_code();
+    text.resize(held + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    if (error && error != std::errc::interrupted) return error;
+  }
+  return {};
+}
+
 }  // namespace
+
+Result<std::string> ReadBoundedFile(const std::filesystem::path& file, std::size_t most_bytes) {
+  // Nobody may ever write into a pipe.
+  const int descriptor = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  std::error_code error = descriptor < 0 ? LastError() : std::error_code();
+  struct stat about {};
+  if (!error && fstat(descriptor, &about) != 0) error = LastError();
+  const bool is_file = !error && S_ISREG(about.st_mode);
+  std::string text;
+  if (is_file) error = ReadAll(descriptor, most_bytes, text);
+  if (descriptor >= 0) close(descriptor);
+  if (is_file && !error) return text;
+  if (!error || error == std::errc::file_too_large) {
+    return Fail(ErrorCode::kCorrupt, "{} is no file, or larger than {} bytes", file.string(),
+                most_bytes);
+  }
+  return Fail(error == std::errc::no_such_file_or_directory ? ErrorCode::kNotFound
+                                                            : ErrorCode::kUnavailable,
+              "cannot read {}: {}", file.string(), error.message());
+}
 
 Result<void> ReplaceFile(const std::filesystem::path& file, const std::string& text, mode_t mode) {
   // Several programs may write the same file, so each writes to a name of its own.

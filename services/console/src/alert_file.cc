@@ -2,9 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <fstream>
-#include <sstream>
-#include <system_error>
 #include <utility>
 
 #include "services/base/durable_file.h"
@@ -16,17 +13,12 @@ namespace fs = std::filesystem;
 
 Result<std::unique_ptr<AlertFile>> AlertFile::Open(const fs::path& file) {
   Alerts alerts;
-  std::error_code error;
-  if (fs::exists(file, error)) {
-    if (const auto size = fs::file_size(file, error); error || size > kMostBytes) {
-      return Fail(ErrorCode::kCorrupt, "{} is no file, or larger than {} bytes", file.string(),
-                  kMostBytes);
-    }
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    auto read = Alerts::Read(std::move(text).str());
+  if (const auto text = ReadBoundedFile(file, kMostBytes)) {
+    auto read = Alerts::Read(*text);
     if (!read) return Wrap(read.error(), file.string());
     alerts = *std::move(read);
+  } else if (text.error().code != ErrorCode::kNotFound) {
+    return tl::unexpected(text.error());
   }
   if (auto written = ReplaceFile(file, alerts.Text()); !written) {
     return tl::unexpected(written.error());

@@ -354,6 +354,7 @@ Result<http::MetricsText> Desk::Measure() {
   const std::scoped_lock lock(mutex_);
   text->Add("console_requests_refused_total", "counter",
             "Commands and questions that were one too many.", refused_);
+  if (options_.measure) options_.measure(*text);
   return text;
 }
 

@@ -6,9 +6,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 #include <utility>
 
+#include "services/base/hex.h"
 #include "services/route/digest.h"
 
 namespace trailcast::console {
@@ -21,9 +23,8 @@ constexpr std::size_t kMostEntries = 100'000;
 std::string IdOf(const std::string& name) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(name.data());
   const auto digest = route::Sha256({bytes, name.size()});
-  std::string id;
-  for (std::size_t i = 0; i < 8; ++i) id += fmt::format("{:02x}", digest[i]);
-  return id;
+  constexpr std::size_t kBytes = 8;
+  return ToHex(std::span(digest).first(kBytes));
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 #include "services/console/site.h"
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "services/base/angles.h"
@@ -72,15 +70,10 @@ Json ValueOf(const Placements& placements) {
 
 // Returns nothing if there is no such file.
 Result<std::optional<std::string>> Contents(const fs::path& file, std::size_t most_bytes) {
-  std::error_code error;
-  if (!fs::exists(file, error)) return std::nullopt;
-  if (const auto size = fs::file_size(file, error); error || size > most_bytes) {
-    return Fail(ErrorCode::kCorrupt, "{} is no file, or larger than {} bytes", file.string(),
-                most_bytes);
-  }
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return std::move(text).str();
+  auto bytes = ReadBoundedFile(file, most_bytes);
+  if (bytes) return *std::move(bytes);
+  if (bytes.error().code == ErrorCode::kNotFound) return std::nullopt;
+  return tl::unexpected(bytes.error());
 }
 
 template <typename Read>

@@ -15,8 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "services/image/src/jpeg_layout.h"
-#include "services/image/src/picture_size.h"
+#include "services/image/src/picture_layout.h"
 
 namespace trailcast::image {
 namespace {
@@ -61,17 +60,16 @@ Result<std::vector<std::uint8_t>> ReadBytes(const fs::path& file) {
 // No camera's picture has more, but a header of a few bytes can promise a thousand times as many.
 constexpr std::uint64_t kMostPixels = 100'000'000;
 
-Result<cv::Mat> DecodeBytes(const std::vector<std::uint8_t>& bytes, const std::string& name,
-                            int flags) {
-  if (const std::uint64_t pixels = PromisedPixels(bytes); pixels > kMostPixels) {
+Result<cv::Mat> DecodeBytes(const std::vector<std::uint8_t>& bytes, const PictureLayout& layout,
+                            const std::string& name, int flags) {
+  if (layout.pixels > kMostPixels) {
     return Fail(ErrorCode::kCorrupt,
                 "the picture {} says that it has {} pixels; at most {} are read: make it smaller",
-                name, pixels, kMostPixels);
+                name, layout.pixels, kMostPixels);
   }
   cv::Mat picture;
-  // libjpeg fills a truncated JPEG up with grey and reports success.
-  const bool truncated = IsJpeg(bytes) && !ReadJpegLayout(bytes).whole;
-  if (!bytes.empty() && !truncated) {
+  // libjpeg fills a JPEG that is cut off up with grey and reports success.
+  if (!bytes.empty() && !layout.cut_off) {
     try {
       picture = cv::imdecode(bytes, flags | cv::IMREAD_IGNORE_ORIENTATION);
     } catch (const cv::Exception&) {
@@ -109,10 +107,12 @@ int ReducedFlag(int times) {
 // Pictures of 16 bits a pixel keep the bits that the run uses.
 Result<cv::Mat> DecodeGrayBytes(const std::vector<std::uint8_t>& bytes, const std::string& name,
                                 PictureRun& run) {
-  const int reduced = ReducedFlag(run.Reduce(ReadJpegLayout(bytes).longer_side_px));
-  auto picture = DecodeBytes(bytes, name, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | reduced);
+  const PictureLayout layout = ReadPictureLayout(bytes);
+  const int reduced = ReducedFlag(run.Reduce(layout.longer_side_px));
+  auto picture =
+      DecodeBytes(bytes, layout, name, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | reduced);
   if (picture && picture->depth() != CV_8U && picture->depth() != CV_16U) {
-    picture = DecodeBytes(bytes, name, cv::IMREAD_GRAYSCALE);
+    picture = DecodeBytes(bytes, layout, name, cv::IMREAD_GRAYSCALE);
   }
   if (!picture) return picture;
   if (picture->depth() == CV_16U) {
@@ -122,12 +122,13 @@ Result<cv::Mat> DecodeGrayBytes(const std::vector<std::uint8_t>& bytes, const st
     const double scale = std::ldexp(1.0, 8 - bits);
     picture->convertTo(*picture, CV_8U, scale, 0.5 * scale - 0.5);  // rounds down
   }
-  return Turned(*picture, run.Orientation(bytes));
+  return Turned(*picture, run.Orientation(layout.orientation));
 }
 
 Result<cv::Mat> DecodeColor(const std::vector<std::uint8_t>& bytes, const std::string& name) {
-  return DecodeBytes(bytes, name, cv::IMREAD_COLOR).map([&](const cv::Mat& picture) {
-    return Turned(picture, ReadJpegLayout(bytes).orientation);
+  const PictureLayout layout = ReadPictureLayout(bytes);
+  return DecodeBytes(bytes, layout, name, cv::IMREAD_COLOR).map([&](const cv::Mat& picture) {
+    return Turned(picture, layout.turn());
   });
 }
 

@@ -1,12 +1,12 @@
 #include "services/image/picture_check.h"
 
-#include "services/image/src/jpeg_layout.h"
-#include "services/image/src/picture_size.h"
+#include "services/image/src/picture_layout.h"
 
 namespace trailcast::image {
 
 Result<void> CheckPicture(std::span<const std::uint8_t> bytes, std::uint64_t most_pixels) {
-  const std::uint64_t pixels = PromisedPixels(bytes);
+  const PictureLayout layout = ReadPictureLayout(bytes);
+  const std::uint64_t pixels = layout.pixels;
   if (pixels == 0) return Fail(ErrorCode::kInvalidArgument, "this is no JPEG and no PNG");
   if (pixels > most_pixels) {
     return Fail(ErrorCode::kInvalidArgument,
@@ -16,10 +16,9 @@ Result<void> CheckPicture(std::span<const std::uint8_t> bytes, std::uint64_t mos
   // A progressive JPEG has about ten scans. Each costs a pass over all pixels and may take only a
   // few bytes.
   constexpr std::ptrdiff_t kMostScans = 64;
-  const std::ptrdiff_t scans = ReadJpegLayout(bytes).scans;
-  if (scans > kMostScans) {
+  if (layout.scans > kMostScans) {
     return Fail(ErrorCode::kInvalidArgument, "the picture has {} scans; at most {} are decoded",
-                scans, kMostScans);
+                layout.scans, kMostScans);
   }
   return {};
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "services/image/src/jpeg_layout.h"
-
 namespace trailcast::image {
 
 int PictureRun::Reduce(std::uint64_t longer_side_px) {
@@ -18,11 +16,10 @@ int PictureRun::Reduce(std::uint64_t longer_side_px) {
   return reduced_;
 }
 
-int PictureRun::Orientation(std::span<const std::uint8_t> picture) {
-  const JpegLayout layout = ReadJpegLayout(picture);
-  if (!layout.whole) return orientation_.value_or(1);
+int PictureRun::Orientation(std::optional<int> told) {
+  if (!told) return orientation_.value_or(1);
   if (!orientation_) {
-    orientation_ = layout.orientation;
+    orientation_ = *told;
     if (*orientation_ != 1) {
       news_.push_back(
           fmt::format("the first picture says that it is to be turned (Exif orientation {}): all "
@@ -30,12 +27,12 @@ int PictureRun::Orientation(std::span<const std::uint8_t> picture) {
                       *orientation_));
     }
   }
-  if (layout.orientation != *orientation_ && !std::exchange(others_told_, true)) {
+  if (*told != *orientation_ && !std::exchange(others_told_, true)) {
     news_.push_back(
         fmt::format("a picture says that it is to be turned otherwise than the first (Exif "
                     "orientation {} instead of {}): a robot's camera is fixed, so all pictures of "
                     "this run are turned as the first one",
-                    layout.orientation, *orientation_));
+                    *told, *orientation_));
   }
   return *orientation_;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <new>
 
+#include "services/base/hex.h"
 #include "services/route/codec.h"
 #include "services/route/labels.h"
 
@@ -67,17 +68,6 @@ Digest ManifestDigest(std::span<const Digest> digests) {
 
 Digest ChainDigest(const Digest& before, const Digest& next) {
   return ManifestDigest(std::array{before, next});
-}
-
-std::string ToHex(const Digest& digest) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string hex;
-  hex.reserve(2 * digest.size());
-  for (const std::uint8_t byte : digest) {
-    hex += kDigits[byte >> 4U];
-    hex += kDigits[byte & 15U];
-  }
-  return hex;
 }
 
 SegmentPiece MakePiece(const RouteKey& key, const Segment& segment) {

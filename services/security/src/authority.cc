@@ -8,6 +8,7 @@
 #include <set>
 
 #include "services/base/durable_file.h"
+#include "services/base/hex.h"
 #include "services/base/ids.h"
 #include "services/base/process_name.h"
 #include "services/security/documents.h"
@@ -31,7 +32,7 @@ Result<std::string> MakeNameKey() {
   if (RAND_bytes(bytes.data(), bytes.size()) != 1) {
     return Fail(ErrorCode::kInternal, "no random numbers to be had");
   }
-  return fmt::format("{:02x}", fmt::join(bytes, ""));
+  return ToHex(bytes);
 }
 
 // Writes several files, until one fails.

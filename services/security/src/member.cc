@@ -8,6 +8,9 @@
 #include <array>
 #include <charconv>
 #include <new>
+#include <span>
+
+#include "services/base/hex.h"
 
 namespace trailcast::security {
 namespace {
@@ -67,9 +70,7 @@ std::string MemberIdOf(std::string_view name_key, std::string_view name) {
            &length) == nullptr) {
     throw std::bad_alloc();
   }
-  std::string id;
-  for (std::size_t i = 0; i < kIdDigits / 2; ++i) id += fmt::format("{:02x}", digest[i]);
-  return id;
+  return ToHex(std::span(digest).first(kIdDigits / 2));
 }
 
 }  // namespace trailcast::security

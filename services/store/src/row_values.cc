@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "services/base/hex.h"
 #include "services/route/bounds.h"
 #include "services/route/digest.h"
 #include "services/route/info_codec.h"
@@ -56,7 +57,7 @@ Result<route::RouteInfo> OpenInfo(const route::Bytes& bytes, const route::Bytes&
 route::Digest Seal(const route::SegmentPiece& piece) {
   const std::string text =
       fmt::format("{}\n{}\n{}\n{}\n", piece.key.route.value(), piece.key.teaching.value(),
-                  piece.index.value(), route::ToHex(piece.digest));
+                  piece.index.value(), ToHex(piece.digest));
   return route::Sha256({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 

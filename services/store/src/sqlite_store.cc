@@ -1,5 +1,6 @@
 #include "services/store/sqlite_store.h"
 
+#include "services/base/hex.h"
 #include "services/route/digest.h"
 #include "services/route/labels.h"
 #include "services/store/src/rows.h"
@@ -140,8 +141,8 @@ Result<void> SqliteRouteStore::Append(const SegmentPiece& piece) {
   return Fail(ErrorCode::kConflict,
               "route store {}: {} is held with other bytes (digest {:.12}.., given {:.12}..); "
               "two scouts may be teaching under one route id",
-              file_.path().string(), Describe(piece.key, piece.index), route::ToHex(held->digest),
-              route::ToHex(piece.digest));
+              file_.path().string(), Describe(piece.key, piece.index), ToHex(held->digest),
+              ToHex(piece.digest));
 }
 
 bool SqliteRouteStore::Execute(const std::string& sql, const SegmentPiece& piece) {

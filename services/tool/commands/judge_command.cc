@@ -265,11 +265,9 @@ int Run(const CLI::App& app, JudgeCommand& judge) {
   std::vector<trial::RecordingOutcome> outcomes;
   std::vector<trial::RecordingRow> rows;
   int status = program::kExitOk;
+  for (const Error& error : trial::ErrorsOf(results)) status = program::Complain(app, error);
   for (Result<trial::RecordingOutcome>& result : results) {
-    if (!result) {
-      status = program::Complain(app, result.error());
-      continue;
-    }
+    if (!result) continue;
     rows.push_back(result->row);
     outcomes.push_back(*std::move(result));
   }

@@ -78,8 +78,8 @@ route::RouteQuery QueryOf(const RoutesOptions& options, std::int64_t now_unix_ms
   return query;
 }
 
-// Reports that no route has that name, with the names that there are, as a failure. What else is
-// asked for may exclude a route of that name.
+// Reports that no route has that name, with the names that there are, as a failure. The query may
+// also exclude a route of that name.
 int ShowNone(const CLI::App& app, const route::RouteQuery& query,
              const exchange::CatalogReply& reply) {
   const std::string holder = fmt::format("server '{}'", reply.server.value());

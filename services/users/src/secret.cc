@@ -9,6 +9,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "services/base/hex.h"
+
 namespace trailcast::users {
 namespace {
 
@@ -26,13 +28,6 @@ constexpr std::size_t kHashDigits = 64;
 
 bool IsHex(std::string_view text) {
   return text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
-
-std::string Hex(const unsigned char* bytes, std::size_t size) {
-  std::string text;
-  text.reserve(2 * size);
-  for (std::size_t i = 0; i < size; ++i) text += fmt::format("{:02x}", bytes[i]);
-  return text;
 }
 
 template <std::size_t kSize>
@@ -56,12 +51,12 @@ std::string Scrypt(const std::string& password, std::string_view salt) {
   const int done = EVP_PBE_scrypt(password.data(), password.size(),
                                   reinterpret_cast<const unsigned char*>(salt.data()), salt.size(),
                                   kCost, kBlock, kParallel, kMostMemory, hash.data(), hash.size());
-  return done == 1 ? Hex(hash.data(), hash.size()) : "";
+  return done == 1 ? ToHex(hash) : "";
 }
 
 std::string Hashed(const std::string& password) {
   const auto salt = Draw<kSaltDigits / 2>();
-  const std::string digits = Hex(salt.data(), salt.size());
+  const std::string digits = ToHex(salt);
   const std::string hash = Scrypt(password, digits);
   return hash.empty() ? "" : fmt::format("{}{}:{}", kScrypt, digits, hash);
 }
@@ -112,12 +107,12 @@ const std::string& NobodysHash() {
 
 std::string DrawToken() {
   const auto bytes = Draw<kHashDigits / 2>();
-  return Hex(bytes.data(), bytes.size());
+  return ToHex(bytes);
 }
 
 std::string DigestOf(std::string_view token) {
   const Bytes32 digest = Sha256(token);
-  return std::string(kSha256) + Hex(digest.data(), digest.size());
+  return std::string(kSha256) + ToHex(digest);
 }
 
 bool IsDigest(std::string_view text) {

@@ -6,8 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -53,16 +51,9 @@ Result<void> GiveToOwner(const std::filesystem::path& file) {
 }  // namespace
 
 Result<Users> LoadUsers(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    const std::error_code error(errno, std::generic_category());
-    return Fail(ErrorCode::kNotFound, "cannot read the users in {}: {}", file.string(),
-                error.message());
-  }
-  std::string text(kMostBytes, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  auto users = ParseUsers(text);
+  const auto text = ReadBoundedFile(file, kMostBytes);
+  if (!text) return tl::unexpected(text.error());
+  auto users = ParseUsers(*text);
   if (!users) return Wrap(users.error(), file.string());
   return users;
 }

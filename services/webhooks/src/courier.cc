@@ -1,9 +1,6 @@
 #include "services/webhooks/courier.h"
 
 #include <chrono>
-#include <fstream>
-#include <sstream>
-#include <system_error>
 #include <utility>
 
 #include "services/base/durable_file.h"
@@ -19,18 +16,16 @@ using program::Json;
 namespace {
 
 constexpr std::chrono::seconds kAnswerWithin{10};
-constexpr std::uintmax_t kMostBytes = 256U << 20U;
+constexpr std::size_t kMostBytes = 256U << 20U;
 constexpr std::int64_t kMsPerSecond = 1000;
 
 Result<Outbox::Kept> Load(const std::vector<Hook>& hooks, const fs::path& file) {
-  std::error_code error;
-  if (!fs::exists(file, error)) return Outbox::Kept{Outbox(hooks), {}};
-  if (const auto size = fs::file_size(file, error); error || size > kMostBytes) {
-    return Fail(ErrorCode::kCorrupt, "it is no file, or larger than {} bytes", kMostBytes);
-  }
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return Outbox::Read(hooks, std::move(text).str());
+  auto text = ReadBoundedFile(file, kMostBytes);
+  if (!text && text.error().code == ErrorCode::kNotFound) return Outbox::Kept{Outbox(hooks), {}};
+  if (!text) return tl::unexpected(text.error());
+  auto kept = Outbox::Read(hooks, *text);
+  if (!kept) return Wrap(kept.error(), file.string());
+  return kept;
 }
 
 bool IsGood(int status) { return status >= 200 && status < 300; }
@@ -46,7 +41,7 @@ struct Courier::Seen {
 Result<std::unique_ptr<Courier>> Courier::Open(std::vector<Hook> hooks, const fs::path& file,
                                                Parts parts) {
   auto kept = Load(hooks, file);
-  if (!kept) return Wrap(kept.error(), file.string());
+  if (!kept) return tl::unexpected(kept.error());
   // Only its owner may read it: bodies tell where robots are.
   if (auto written = ReplaceFile(file, kept->outbox.Text(kept->seen), 0600); !written) {
     return tl::unexpected(written.error());
@@ -72,6 +67,7 @@ Courier::Courier(std::vector<Hook> hooks, fs::path file, Parts parts, Outbox::Ke
       parts_(std::move(parts)),
       outbox_(std::move(kept.outbox)),
       finder_(std::move(kept.seen)),
+      waiting_count_(outbox_.waiting()),
       thread_([this] { Run(); }) {}
 
 Courier::~Courier() {
@@ -116,7 +112,7 @@ void Courier::Serve() {
     const std::int64_t now_ms = parts_.unix_ms();
     if (seen && !(last_ && *seen == *last_)) {
       for (const Event& event : finder_.Look(seen->alerts, seen->missions, now_ms)) {
-        outbox_.Add(event, now_ms);
+        Add(event, now_ms);
       }
       last_ = std::move(seen);
       Keep();
@@ -142,6 +138,7 @@ void Courier::Deliver(const Outbox::Delivery& delivery) {
   const auto status = parts_.post(hook, headers, delivery.event.body);
   if (status && IsGood(*status)) {
     outbox_.Arrived(delivery);
+    overflowing_.erase(delivery.hook);
     return;
   }
   const std::string why = status ? fmt::format("it answers {}", *status) : status.error().message;
@@ -151,7 +148,27 @@ void Courier::Deliver(const Outbox::Delivery& delivery) {
                           again ? "it is tried again for a day" : "it is given up"));
 }
 
+void Courier::Add(const Event& event, std::int64_t now_ms) {
+  for (const std::size_t hook : outbox_.Add(event, now_ms)) {
+    if (!overflowing_.insert(hook).second) continue;
+    parts_.tell(
+        fmt::format("{} events wait for hook {}, and no more are kept: it is never told of the "
+                    "oldest ones, from now on until it answers",
+                    Outbox::kMostWaiting, hooks_[hook].url));
+  }
+}
+
+void Courier::Measure(http::MetricsText& text) const {
+  text.Add("webhook_events_waiting", "gauge", "Events that hooks still have to be told.",
+           waiting_count_.load());
+  text.Add("webhook_events_dropped_total", "counter",
+           "Events that a hook was never told of, since too many waited or a day was over.",
+           dropped_count_.load());
+}
+
 void Courier::Keep() {
+  waiting_count_ = outbox_.waiting();
+  dropped_count_ = outbox_.dropped();
   std::string text = outbox_.Text(finder_.Seen());
   if (text == kept_) return;
   const auto written = ReplaceFile(file_, text, 0600);

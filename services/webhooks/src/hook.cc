@@ -6,6 +6,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "services/base/hex.h"
 #include "services/base/text_file.h"
 #include "services/program/json.h"
 
@@ -101,9 +102,7 @@ std::string SignatureOf(const std::string& secret, std::int64_t unix_s, const st
            code.data(), &size) == nullptr) {
     throw std::runtime_error("OpenSSL has no HMAC-SHA256");
   }
-  std::string text = fmt::format("t={},v1=", unix_s);
-  for (const unsigned char byte : code) text += fmt::format("{:02x}", byte);
-  return text;
+  return fmt::format("t={},v1={}", unix_s, ToHex(code));
 }
 
 }  // namespace trailcast::webhooks

@@ -11,15 +11,18 @@ using program::Json;
 
 Outbox::Outbox(const std::vector<Hook>& hooks) : hooks_(hooks), waiting_(hooks.size()) {}
 
-void Outbox::Add(const Event& event, std::int64_t unix_ms) {
+std::vector<std::size_t> Outbox::Add(const Event& event, std::int64_t unix_ms) {
+  std::vector<std::size_t> overflowing;
   for (std::size_t i = 0; i < hooks_.size(); ++i) {
     if (!hooks_[i].Wants(event.name)) continue;
     if (waiting_[i].size() >= kMostWaiting) {
       waiting_[i].pop_front();
       ++dropped_;
+      overflowing.push_back(i);
     }
     waiting_[i].push_back({event, unix_ms, 0});
   }
+  return overflowing;
 }
 
 bool Outbox::IsDue(const Waiting& waiting, std::int64_t unix_ms) {

@@ -142,6 +142,24 @@ TEST_F(NetworkChanges, ACommandWithoutANetworkIsRefusedInWords) {
               AllOf(HasSubstr("eth0 has no IPv4 address"), HasSubstr("--network-interface lo")));
 }
 
+TEST_F(NetworkChanges, AMachineWithIPv6AloneIsToldThatDdsGoesByIPv4) {
+  for (const int host : {kServer, kRobot}) {
+    const std::string address = "fd77::" + std::to_string(host) + "/64";
+    Process gives(lab_->At(host, {"ip", "-6", "address", "add", address, "dev", "eth0", "nodad"}),
+                  Path("ip"));
+    if (gives.Wait() != 0) GTEST_SKIP() << "this machine has no IPv6: " << gives.output();
+  }
+  const std::string why = "eth0 has an IPv6 address alone, and DDS goes by IPv4 here";
+  StartServer();
+  ASSERT_TRUE(server_->WaitForOutput("waiting for the network")) << server_->output();
+  EXPECT_THAT(server_->output(), AllOf(HasSubstr(why), Not(HasSubstr("ready"))));
+  EXPECT_TRUE(PageSays("/health", "503"));
+  EXPECT_THAT(Page("/health"), HasSubstr(why));
+  const Ended refused = RunAt(kRobot, "trailcast", {"routes"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.output, HasSubstr(why));
+}
+
 TEST_F(NetworkChanges, ARobotThatGetsAnotherAddressDeliversTheRest) {
   StartServerOnItsNetwork();
   lab_->GiveAddress(kRobot, kRobot);

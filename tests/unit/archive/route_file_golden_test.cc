@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "services/archive/route_file_writer.h"
+#include "services/base/hex.h"
 #include "tests/support/places.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/archive/made_file.h"
@@ -47,7 +48,7 @@ TEST_F(RouteFileGolden, FileIsReadAsTheKnownRoute) {
 
 // Written out here so that regenerating the file by mistake does not go unseen.
 TEST_F(RouteFileGolden, DigestIsTheOneOfVersion2) {
-  EXPECT_EQ(route::ToHex(route::Sha256(ReadFile(kFile))),
+  EXPECT_EQ(ToHex(route::Sha256(ReadFile(kFile))),
             "b65af15af3b0de01805c0fb586a0a1bfe12f193b80ae9ee68d84c011e349ea3b");
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "tests/support/documents.h"
 #include "tests/unit/base/prose.h"
+#include "tests/unit/base/source_rooms.h"
 
 namespace trailcast {
 namespace {
@@ -89,6 +91,40 @@ std::vector<std::string> DeadLinks(const std::vector<Document>& documents) {
   return dead;
 }
 
+// Returns the tests there are: "Suite.Name" each.
+std::set<std::string> Tests() {
+  const std::regex begins(R"(^TEST(?:_F|_P)?\(([A-Za-z0-9_]+), ?([A-Za-z0-9_]+)\))");
+  std::set<std::string> tests;
+  for (const SourceLine& line : ReadSources({"tests"})) {
+    std::smatch test;
+    if (line.text.starts_with("TEST") && std::regex_search(line.text, test, begins)) {
+      tests.insert(test[1].str() + "." + test[2].str());
+    }
+  }
+  return tests;
+}
+
+// Returns the tests that a page's tables name in their last columns and that are not among `tests`:
+// `Suite`, `Suite.Name` or `Suite.Beginning...` each, beside commands with blanks.
+std::vector<std::string> AbsentTests(const Document& page, const std::set<std::string>& tests) {
+  std::vector<std::string> absent;
+  for (const DocumentLine& line : page.lines) {
+    if (line.kind != LineKind::kTable || line.text.size() < 2) continue;
+    std::istringstream cell(line.text.substr(line.text.rfind('|', line.text.size() - 2) + 1));
+    std::string name;
+    for (bool is_code = false; std::getline(cell, name, '`'); is_code = !is_code) {
+      if (!is_code || name.find_first_of(" _") != std::string::npos) continue;
+      const bool is_whole = name.find('.') != std::string::npos && !name.ends_with("...");
+      if (name.ends_with("...")) name.resize(name.size() - 3);
+      if (name.find('.') == std::string::npos) name += '.';
+      const auto at = tests.lower_bound(name);
+      const bool is_there = at != tests.end() && (is_whole ? *at == name : at->starts_with(name));
+      if (!is_there) absent.push_back(page.Where(line.number) + ": " + name);
+    }
+  }
+  return absent;
+}
+
 std::vector<std::string> UnplainIn(const Document& document) {
   return test::UnplainProse(document, test::kDocumentOpenings);
 }
@@ -100,6 +136,25 @@ TEST(Documents, EveryLinkLeadsToAFileAndAHeading) {
 TEST(Documents, ALinkToNothingIsFound) {
   EXPECT_THAT(DeadLinks({Read("# One\n[a](#one) [b](#two) `[c](d)`\n\n    [e](f)\n[g](no.md)\n")}),
               ElementsAre("page.md:2: #two", "page.md:5: no.md"));
+}
+
+TEST(Documents, ThePromisesToTheFieldAreHeldByTestsThatExist) {
+  int pages = 0;
+  for (const Document& document : test::ReadDocuments()) {
+    if (document.path != "docs/explanation/field.md") continue;
+    ++pages;
+    EXPECT_THAT(AbsentTests(document, Tests()), IsEmpty());
+  }
+  EXPECT_EQ(pages, 1);
+}
+
+TEST(Documents, ATestThatDoesNotExistIsFound) {
+  const std::set<std::string> tests{"One.Is", "Two.IsLong"};
+  EXPECT_THAT(AbsentTests(Read("| x | test |\n| --- | --- |\n"
+                               "| `No.Test` | `One`, `Two.Is...`, `Two.IsLong`, `./run attack` |\n"
+                               "| x | `Tw`, `Two.Is`, `One.Was...` |\n"),
+                          tests),
+              ElementsAre("page.md:4: Tw.", "page.md:4: Two.Is", "page.md:4: One.Was"));
 }
 
 TEST(Documents, AreWrittenInSentencesAndInTheFieldsWords) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -17,6 +18,36 @@ namespace fs = std::filesystem;
 std::string TextIn(const fs::path& file) {
   std::ifstream stream(file);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(ReadBoundedFile, ReadsAllOfAFileThatIsNotTooLarge) {
+  const test::TempDir folder;
+  const std::string bytes("a\0b\r\n", 5);
+  ASSERT_TRUE(ReplaceFile(folder / "note", bytes));
+  EXPECT_EQ(ReadBoundedFile(folder / "note", 5).value(), bytes);
+  const auto larger = ReadBoundedFile(folder / "note", 4);
+  ASSERT_FALSE(larger);
+  EXPECT_EQ(larger.error().code, ErrorCode::kCorrupt);
+  EXPECT_EQ(larger.error().message,
+            (folder / "note").string() + " is no file, or larger than 4 bytes");
+  ASSERT_TRUE(ReplaceFile(folder / "long", std::string(200'000, 'x')));
+  EXPECT_EQ(ReadBoundedFile(folder / "long", 1'000'000).value(), std::string(200'000, 'x'));
+  ASSERT_TRUE(ReplaceFile(folder / "empty", ""));
+  EXPECT_EQ(ReadBoundedFile(folder / "empty", 0).value(), "");
+}
+
+TEST(ReadBoundedFile, TellsWhatIsNotThereFromWhatIsNoFile) {
+  const test::TempDir folder;
+  const auto absent = ReadBoundedFile(folder / "absent", 9);
+  ASSERT_FALSE(absent);
+  EXPECT_EQ(absent.error().code, ErrorCode::kNotFound);
+  EXPECT_THAT(absent.error().message,
+              testing::StartsWith("cannot read " + (folder / "absent").string()));
+  EXPECT_EQ(ReadBoundedFile(folder.path(), 9).error().code, ErrorCode::kCorrupt);
+  EXPECT_EQ(ReadBoundedFile("/dev/zero", 9).error().code, ErrorCode::kCorrupt);
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(ReadBoundedFile(folder / "pipe", 9).error().code, ErrorCode::kCorrupt)
+      << "without waiting for anybody to write into it";
 }
 
 TEST(ReplaceFile, MakesAFileAndReplacesIt) {

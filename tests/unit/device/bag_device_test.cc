@@ -14,6 +14,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using testing::AllOf;
+using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -204,6 +205,9 @@ TEST_F(BagDeviceTest, PicturesFarFromAnyOdometryAreLeftOut) {
   ASSERT_EQ(all.size(), 30U);
   EXPECT_EQ(all.front().stamp, kBegin + milliseconds(500));
   EXPECT_EQ(all.back().stamp, kBegin + milliseconds(3900));
+  EXPECT_THAT((*device)->TakeNews(),
+              Contains(AllOf(HasSubstr("of 46 pictures are left out: 16 "),
+                             HasSubstr("; nothing is seen of 0.6 m of 2.4 m driven"))));
 }
 
 TEST_F(BagDeviceTest, ClocksThatDifferAreReplacedByTheRecorders) {

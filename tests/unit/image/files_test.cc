@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "services/image/picture_check.h"
-#include "services/image/src/picture_size.h"
+#include "services/image/src/picture_layout.h"
 #include "tests/support/temp_dir.h"
 
 namespace trailcast::image {
@@ -182,19 +182,19 @@ TEST(Files, OfSixteenBitsThoseAreTakenThatAreUsed) {
   }
 }
 
-TEST(PromisedPixels, AreThoseOfWhatWasEncoded) {
+TEST(PictureLayout, TellsTheNumberOfPixels) {
   GrayImage image = Gradient(64, 48);
   const cv::Mat view(image.height, image.width, CV_8UC1, image.pixels.data());
   for (const char* extension : {".png", ".jpg"}) {
     std::vector<std::uint8_t> bytes;
     ASSERT_TRUE(cv::imencode(extension, view, bytes));
-    EXPECT_EQ(PromisedPixels(bytes), 64U * 48U) << extension;
+    EXPECT_EQ(ReadPictureLayout(bytes).pixels, 64U * 48U) << extension;
     for (std::size_t length = 0; length < bytes.size(); ++length) {
-      const std::uint64_t promised = PromisedPixels(std::span(bytes).first(length));
+      const std::uint64_t promised = ReadPictureLayout(std::span(bytes).first(length)).pixels;
       EXPECT_TRUE(promised == 0 || promised == 64U * 48U) << extension << " cut to " << length;
     }
   }
-  EXPECT_EQ(PromisedPixels({}), 0U);
+  EXPECT_EQ(ReadPictureLayout({}).pixels, 0U);
 }
 
 // A few bytes, for which OpenCV would make room for a milliard pixels.

@@ -80,6 +80,43 @@ TEST(PowerCut, NothingThatAMissionStoreHasTakenIsLost) {
       {Sent("m1"), UnderWay("m1"), UnderWay("m2"), Sent("m3"), stopped, answered});
 }
 
+TEST(PowerCut, NothingThatIsKnownOfSchedulesAndHeldQueuesIsLost) {
+  using Schedule = MissionStore::Schedule;
+  const auto has = [](MissionStore& store, const std::string& name, std::int64_t last_unix_ms) {
+    const auto all = store.Schedules();
+    return all && std::any_of(all->begin(), all->end(), [&](const Schedule& each) {
+             return each.name == name && each.last_unix_ms >= last_unix_ms &&
+                    each.sent.size() == (each.last_unix_ms > 0 ? 1U : 0U);
+           });
+  };
+  const auto scheduled = [&](std::int64_t last_unix_ms) {
+    Schedule round{.name = "round", .words = "round to robot1 ..", .by = "desk"};
+    round.last_unix_ms = last_unix_ms;
+    if (last_unix_ms > 0) round.sent = {{AgentId("robot1"), "round-1", ""}};
+    return test::Told<MissionStore>{
+        [round](MissionStore& store) { return store.Put(round); },
+        [has, last_unix_ms](MissionStore& store) { return has(store, "round", last_unix_ms); }};
+  };
+  const test::Told<MissionStore> forgotten{
+      [](MissionStore& store) {
+        return store.Put(Schedule{.name = "gone"}).and_then([&] {
+          return store.ForgetSchedule("gone");
+        });
+      },
+      [has](MissionStore& store) { return !has(store, "gone", 0); }};
+  const test::Told<MissionStore> held{
+      [](MissionStore& store) {
+        return store.Put(MissionStore::Hold{AgentId("robot1"), "stopped", kNow});
+      },
+      [](MissionStore& store) {
+        const auto holds = store.Holds();
+        return holds && holds->size() == 1;
+      }};
+  test::ExpectThatNothingTakenIsLost<MissionStore>(
+      [](const std::filesystem::path& file) { return MissionStore::Open(file); },
+      {scheduled(0), held, scheduled(kNow), forgotten});
+}
+
 TEST(PowerCut, NothingThatANetworksStoreHasTakenIsLost) {
   const auto junction = [](double from_m) {
     const network::Junction made{{"hall", from_m}, {"yard", 0.0}, true};
@@ -107,9 +144,38 @@ TEST(PowerCut, NothingThatANetworksStoreHasTakenIsLost) {
         const auto names = store.Names();
         return names && names->size() == 1;
       }};
+  const ProposedJunction found{{{{"hall", 5.0}, {"attic", 1.0}, false}, 0.9}};
+  const test::Told<NetworkStore> proposed{[found](NetworkStore& store) {
+                                            return store.Put({&found, 1}, "server", kNow);
+                                          },
+                                          [found](NetworkStore& store) {
+                                            const auto proposals = store.Proposals();
+                                            return proposals && *proposals == std::vector{found};
+                                          }};
+  const test::Told<NetworkStore> zone{
+      [](NetworkStore& store) {
+        return store.Put(network::Lane{{{"hall", 2.0, 4.0}}}, "desk", kNow)
+            .and_then([&](std::int64_t number) {
+              return store.Hold({&number, 1}, AgentId("robot1"));
+            });
+      },
+      [](NetworkStore& store) {
+        const auto lanes = store.Lanes();
+        return lanes && std::any_of(lanes->begin(), lanes->end(), [](const KeptLane& lane) {
+                 return lane.holders.contains(AgentId("robot1"));
+               });
+      }};
+  const FollowedSection section{test::KeyNumber(1), 3, 5.0, 1.0, kNow};
+  const test::Told<NetworkStore> followed{[section](NetworkStore& store) {
+                                            return store.Put({&section, 1});
+                                          },
+                                          [section](NetworkStore& store) {
+                                            const auto sections = store.Followed();
+                                            return sections && *sections == std::vector{section};
+                                          }};
   test::ExpectThatNothingTakenIsLost<NetworkStore>(
       [](const std::filesystem::path& file) { return NetworkStore::Open(file); },
-      {junction(1.0), closed, junction(2.0), named});
+      {junction(1.0), closed, junction(2.0), named, proposed, zone, followed});
 }
 
 TEST(PowerCut, NothingThatAHistoryHasTakenIsLost) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/base/hex.h"
 #include "tests/unit/route/sample_segment.h"
 
 namespace trailcast::route {

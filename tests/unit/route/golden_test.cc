@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "services/base/hex.h"
 #include "services/route/codec.h"
 #include "services/route/digest.h"
 #include "tests/support/places.h"

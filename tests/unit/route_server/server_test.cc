@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <httplib.h>
 
 #include <atomic>
 #include <filesystem>
@@ -31,16 +32,25 @@ class SlowStore : public test::MemoryStore {
     std::this_thread::sleep_for(milliseconds(10));
     return MemoryStore::QueryRoutes(query);
   }
-  Result<void> AppendSegments(std::span<const route::SegmentPiece>) override { return {}; }
+  Result<void> AppendSegments(std::span<const route::SegmentPiece>) override {
+    if (disk_full) return Fail(ErrorCode::kUnavailable, "the disk is full");
+    return {};
+  }
+  std::atomic<bool> disk_full = false;
 };
 
 class ServerTest : public testing::Test {
  protected:
   void Start(const QuotaOptions& quotas = {}, const std::filesystem::path& junctions = {},
              const std::filesystem::path& missions = {}) {
-    auto server = Server::Open(AgentId("server"), std::make_unique<SlowStore>(),
+    auto store = std::make_unique<SlowStore>();
+    store_ = store.get();
+    auto server = Server::Open(AgentId("server"), std::move(store),
                                bus_.Open(program::WithAgents(exchange::ServerTopics())));
     server_ = std::move(*server);
+    auto page = HttpPage::Open("127.0.0.1", 0, [](const Error&) {}).value();
+    port_ = page->port();
+    server_->ShowOn(std::move(page));
     if (quotas.any()) server_->Limit(quotas);
     if (!junctions.empty()) {
       ASSERT_TRUE(server_->KeepNetwork(store::NetworkStore::Open(junctions).value()));
@@ -115,6 +125,8 @@ class ServerTest : public testing::Test {
   }
 
   exchange::InProcessBus bus_;
+  SlowStore* store_ = nullptr;  // the server's
+  int port_ = 0;                // of its page
   std::unique_ptr<Server> server_;
   std::atomic<bool> stopping_{false};
   std::thread running_;
@@ -214,6 +226,28 @@ TEST_F(ServerTest, AServerWithoutANetworkSaysSo) {
   const auto desk = bus_.Open(exchange::JoinerTopics());
   EXPECT_THAT(NetworkSays(*desk, exchange::NetworkEdit{AgentId("desk"), 1, "open corridor"}),
               testing::HasSubstr("keeps no network of routes"));
+}
+
+TEST_F(ServerTest, ThatItsDiskIsFullItsHealthTellsUntilThereIsRoom) {
+  Start();
+  const auto is_healthy = [this](const std::string& health) {
+    httplib::Client client("127.0.0.1", port_);
+    const auto got = client.Get("/health");
+    return got && got->status == 200 && got->body == health;
+  };
+  ASSERT_TRUE(test::Await([&] { return is_healthy("ok\n"); }, "a server that is well"));
+  store_->disk_full = true;
+  const auto scout = bus_.Open(exchange::ScoutTopics());
+  exchange::RouteSender sender = SenderOf(test::KeyNumber(1), 3);
+  EXPECT_TRUE(Delivers(sender, *scout, "the disk is full"));
+  EXPECT_TRUE(test::Await(
+      [&] {
+        return is_healthy("degraded: nothing that scouts send is stored: the disk is full\n");
+      },
+      "that it is told"));
+  store_->disk_full = false;
+  EXPECT_TRUE(Delivers(sender, *scout));
+  EXPECT_TRUE(test::Await([&] { return is_healthy("ok\n"); }, "that it is well again"));
 }
 
 TEST_F(ServerTest, AScoutOverItsQuotaIsToldSoAndLosesNothing) {

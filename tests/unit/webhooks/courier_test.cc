@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <fstream>
 #include <mutex>
@@ -102,6 +103,57 @@ TEST_F(CourierTest, WhatDidNotArriveIsToldByTheNextOneAfterARestart) {
     courier->Look(Json::array(), Missions("failed"));
   }
   EXPECT_EQ(posted(), 2U) << "it has arrived, and is no news";
+}
+
+TEST_F(CourierTest, ThatEventsAreDroppedIsToldOnceUntilItsHookAnswers) {
+  const auto courier = Open();
+  const auto measured = [&] {
+    http::MetricsText text;
+    courier->Measure(text);
+    return text.text();
+  };
+  const auto told_of_drops = [&] {
+    const std::scoped_lock lock(mutex_);
+    return std::count_if(told_.begin(), told_.end(), [](const std::string& line) {
+      return line ==
+             "200 events wait for hook http://a/x, and no more are kept: it is never told "
+             "of the oldest ones, from now on until it answers";
+    });
+  };
+  // Each look shows as many missions that have failed since the one before.
+  const auto fail = [&](std::size_t many) {
+    Json missions = Json::array();
+    const std::int64_t at_ms = now_ms_ += Outbox::kLongestWait_ms;
+    for (std::size_t i = 0; i < many; ++i) {
+      missions.push_back({{"robot", fmt::format("robot{}", i)},
+                          {"mission", fmt::format("m{}", at_ms)},
+                          {"state", "failed"},
+                          {"changed_unix_ms", at_ms + 1}});
+    }
+    courier->Look(Json::array(), missions);
+  };
+  courier->Look(Json::array(), Json::array());
+  Answer(503);
+  fail(Outbox::kMostWaiting + 3);
+  ASSERT_TRUE(test::Await([&] { return told_of_drops() == 1; }, "that some are dropped"));
+  ASSERT_TRUE(test::Await(
+      [&] { return measured().find("webhook_events_dropped_total 3\n") != std::string::npos; },
+      "the metric"));
+  EXPECT_THAT(measured(), HasSubstr("trailcast_webhook_events_waiting 200\n"));
+  fail(2);
+  ASSERT_TRUE(test::Await(
+      [&] { return measured().find("webhook_events_dropped_total 5\n") != std::string::npos; },
+      "two more"));
+  EXPECT_EQ(told_of_drops(), 1);
+  Answer(200);
+  now_ms_ += Outbox::kLongestWait_ms;
+  courier->Look(Json::array(), Json::array());
+  ASSERT_TRUE(test::Await(
+      [&] { return measured().find("webhook_events_waiting 0\n") != std::string::npos; },
+      "all of them"));
+  Answer(503);
+  fail(Outbox::kMostWaiting + 1);
+  EXPECT_TRUE(test::Await([&] { return told_of_drops() == 2; }, "it begins again"));
 }
 
 TEST_F(CourierTest, AFileOfSomethingElseIsLeftAlone) {

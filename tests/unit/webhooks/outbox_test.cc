@@ -69,7 +69,8 @@ TEST(Outbox, AClockThatIsSetBackMakesNobodyWaitForDays) {
 TEST(Outbox, TheOldestAreDroppedBeyondABound) {
   Outbox outbox(Hooks());
   for (std::size_t i = 0; i < Outbox::kMostWaiting + 3; ++i) {
-    outbox.Add(Named(std::to_string(i), "mission.arrived"), kNow_ms);
+    const auto overflowing = outbox.Add(Named(std::to_string(i), "mission.arrived"), kNow_ms);
+    EXPECT_EQ(overflowing.empty(), i < Outbox::kMostWaiting) << i;
   }
   EXPECT_EQ(outbox.waiting(), Outbox::kMostWaiting);
   EXPECT_EQ(outbox.dropped(), 3U);

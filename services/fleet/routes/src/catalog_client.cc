@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "services/base/hex.h"
 #include "services/base/unix_time.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/ask.h"
@@ -143,7 +144,7 @@ program::Json RouteJson(const route::RouteInfo& info) {
           {"scout", info.scout.value()},
           {"camera", info.camera},
           {"taught_unix_ms", info.taught_unix_ms},
-          {"manifest_sha256", route::ToHex(info.manifest_digest)},
+          {"manifest_sha256", ToHex(info.manifest_digest)},
           {"tags", info.tags},
           {"place", JsonPlace(info.place)},
           {"description", info.description},

@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include "services/base/hex.h"
 #include "services/base/unix_time.h"
 #include "services/fleet/routes/catalog_client.h"
 #include "services/program/json.h"
@@ -34,7 +35,7 @@ std::string FileText(const std::string& path, const archive::RouteFile& file) {
       path, info.name, info.revision.value(), info.key.route.value(), DateText(info.taught_unix_ms),
       info.scout.value(), info.camera, info.image_width_px, info.image_height_px,
       info.segment_count, LengthText(info), info.bytes, file.file_bytes(),
-      route::ToHex(info.manifest_digest));
+      ToHex(info.manifest_digest));
   if (!info.tags.empty()) text += fmt::format("  tags      {}\n", fmt::join(info.tags, " "));
   if (info.place) text += fmt::format("  begins    {}\n", PlaceText(*info.place));
   return text;

@@ -17,4 +17,8 @@ using RecordingProgress = std::function<void(double share, int ended)>;
     const std::vector<RecordingPair>& pairs, const RecordingOptions& options, int jobs,
     const RecordingProgress& on_progress);
 
+// Returns the errors of these outcomes, in their order. One that several pairs have is said once,
+// with how many they are: a missing recording stops all pairs of it.
+[[nodiscard]] std::vector<Error> ErrorsOf(const std::vector<Result<RecordingOutcome>>& outcomes);
+
 }  // namespace trailcast::trial

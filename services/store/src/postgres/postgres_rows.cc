@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "services/base/hex.h"
 #include "services/route/digest.h"
 #include "services/route/info_codec.h"
 
@@ -43,14 +44,7 @@ void PostgresValues::Add(const std::string& text) {
 }
 
 void PostgresValues::AddBytes(const std::uint8_t* bytes, std::size_t size) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text = "\\x";
-  text.reserve(2 + 2 * size);
-  for (std::size_t i = 0; i < size; ++i) {
-    text += kDigits[bytes[i] >> 4U];
-    text += kDigits[bytes[i] & 15U];
-  }
-  values_.emplace_back(std::move(text));
+  values_.emplace_back("\\x" + ToHex({bytes, size}));
 }
 
 void PostgresValues::Add(const route::RouteKey& key) {

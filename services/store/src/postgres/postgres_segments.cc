@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "services/base/hex.h"
 #include "services/route/digest.h"
 #include "services/store/src/postgres/postgres_rows.h"
 #include "services/store/src/row_values.h"
@@ -150,8 +151,7 @@ Result<void> PostgresRouteStore::Conflict(const SegmentPiece& piece,
   return Fail(ErrorCode::kConflict,
               "route store {}: {} is held with other bytes (digest {:.12}.., given {:.12}..); "
               "two scouts may be teaching under one route id",
-              session_->name(), Describe(piece.key, piece.index), route::ToHex(held),
-              route::ToHex(piece.digest));
+              session_->name(), Describe(piece.key, piece.index), ToHex(held), ToHex(piece.digest));
 }
 
 Result<SegmentPiece> PostgresRouteStore::ReadSegment(const RouteKey& key, SegmentIndex index) {

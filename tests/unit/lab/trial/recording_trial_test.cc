@@ -160,10 +160,25 @@ TEST_F(RecordingTrialTest, APairWithAnAbsentFileIsNamedAndTheOthersGoOn) {
   const auto outcomes = RunRecordingTrials({pair, Pair("third"), Pair("second")}, {}, 1, {});
   ASSERT_THAT(outcomes, SizeIs(3));
   ASSERT_FALSE(outcomes[0]);
-  EXPECT_THAT(outcomes[0].error().message, HasSubstr("second on first: cannot read"));
+  EXPECT_THAT(outcomes[0].error().message,
+              testing::StartsWith("cannot read " + pair.reference.string()));
   ASSERT_FALSE(outcomes[1]);
   EXPECT_THAT(outcomes[1].error().message, HasSubstr("third"));
   EXPECT_TRUE(outcomes[2]);
+}
+
+TEST_F(RecordingTrialTest, ARecordingThatManyPairsLackIsNamedOnce) {
+  RecordingPair unseen = Pair("second");
+  unseen.teach.frames = folder_ / "third";
+  RecordingPair other = Pair("second");
+  other.reference = folder_ / "absent.csv";
+  const auto errors = ErrorsOf(
+      RunRecordingTrials({Pair("third"), unseen, Pair("second"), other, Pair("third")}, {}, 2, {}));
+  ASSERT_THAT(errors, SizeIs(2));
+  EXPECT_THAT(errors[0].message, testing::AllOf(testing::StartsWith("no recorded run at " +
+                                                                    (folder_ / "third").string()),
+                                                testing::EndsWith(" (so for 3 pairs)")));
+  EXPECT_THAT(errors[1].message, HasSubstr("absent.csv"));
 }
 
 TEST_F(RecordingTrialTest, ProgressGoesFromNothingToAll) {

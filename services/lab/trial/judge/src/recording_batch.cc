@@ -77,7 +77,7 @@ class Batch {
       if (!visited) teaching.taught = tl::unexpected(visited.error());
     });
     if (!teaching.taught) {
-      return Wrap(teaching.taught.error(), "teaching " + pair.teach.frames.string());
+      return About(teaching.taught.error(), "teaching " + pair.teach.frames.string());
     }
     const bool sided = pair.kind == PairKind::kRight && !pair.reference.empty();
     if (sided) std::call_once(teaching.own_once, [&] { FindOwnTurns(index, teaching); });
@@ -85,9 +85,15 @@ class Batch {
     auto outcome = RunRecordingTrial(pair, *teaching.taught, *teaching.own_turns_rad, options_,
                                      Telling(index, kOwnShare, 1.0));
     if (!outcome) {
-      return Wrap(outcome.error(), fmt::format("{} on {}", pair.replay_name, pair.teach_name));
+      return About(outcome.error(), fmt::format("{} on {}", pair.replay_name, pair.teach_name));
     }
     return outcome;
+  }
+
+  // Nobody needs to know for what a file is that is not there.
+  static tl::unexpected<Error> About(const Error& error, const std::string& doing) {
+    if (error.code == ErrorCode::kNotFound) return tl::unexpected(error);
+    return Wrap(error, doing);
   }
 
   Teaching& TeachingOf(const RecordingPair& pair) {
@@ -155,6 +161,27 @@ std::vector<Result<RecordingOutcome>> RunRecordingTrials(const std::vector<Recor
     for (int i = 0; i < count; ++i) threads.emplace_back([&] { batch.Work(); });
   }
   return batch.Take();
+}
+
+std::vector<Error> ErrorsOf(const std::vector<Result<RecordingOutcome>>& outcomes) {
+  std::vector<Error> errors;
+  std::vector<int> pairs;
+  for (const Result<RecordingOutcome>& outcome : outcomes) {
+    if (outcome) continue;
+    const auto same = std::find_if(errors.begin(), errors.end(), [&](const Error& error) {
+      return error.message == outcome.error().message;
+    });
+    if (same != errors.end()) {
+      ++pairs[static_cast<std::size_t>(same - errors.begin())];
+    } else {
+      errors.push_back(outcome.error());
+      pairs.push_back(1);
+    }
+  }
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (pairs[i] > 1) errors[i].message += fmt::format(" (so for {} pairs)", pairs[i]);
+  }
+  return errors;
 }
 
 }  // namespace trailcast::trial

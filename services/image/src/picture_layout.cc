@@ -1,8 +1,7 @@
-#include "services/image/src/jpeg_layout.h"
+#include "services/image/src/picture_layout.h"
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 
 #include "services/image/src/exif.h"
 
@@ -31,15 +30,31 @@ bool StandsAlone(std::uint8_t marker) {
 }
 
 std::uint64_t BigEndian(std::span<const std::uint8_t> bytes) {
-  return std::uint64_t{bytes[0]} << 8U | bytes[1];
+  std::uint64_t value = 0;
+  for (const std::uint8_t byte : bytes) value = value << 8U | byte;
+  return value;
+}
+
+template <std::size_t kSize>
+bool BeginsWith(std::span<const std::uint8_t> bytes, const std::array<std::uint8_t, kSize>& start) {
+  return bytes.size() >= kSize && std::equal(start.begin(), start.end(), bytes.begin());
+}
+
+// https://www.w3.org/TR/png-3/, section 11.2.1: the first chunk is IHDR and begins with width and
+// height.
+PictureLayout OfPng(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kWidthAt = 16;
+  if (bytes.size() < kWidthAt + 8) return {};
+  return {.pixels =
+              BigEndian(bytes.subspan(kWidthAt, 4)) * BigEndian(bytes.subspan(kWidthAt + 4, 4))};
 }
 
 // A frame's header begins with the sample precision, then height and width. The largest frame of a
 // file that has several counts.
-void TakeFrame(std::span<const std::uint8_t> frame, JpegLayout& layout) {
+void TakeFrame(std::span<const std::uint8_t> frame, PictureLayout& layout) {
   if (frame.size() < 5) return;
-  const std::uint64_t height = BigEndian(frame.subspan(1));
-  const std::uint64_t width = BigEndian(frame.subspan(3));
+  const std::uint64_t height = BigEndian(frame.subspan(1, 2));
+  const std::uint64_t width = BigEndian(frame.subspan(3, 2));
   layout.pixels = std::max(layout.pixels, width * height);
   layout.longer_side_px = std::max({layout.longer_side_px, width, height});
 }
@@ -56,31 +71,34 @@ std::uint8_t TakeMarker(std::span<const std::uint8_t>& left) {
   return *at;
 }
 
-}  // namespace
-
-bool IsJpeg(std::span<const std::uint8_t> bytes) {
-  constexpr std::array<std::uint8_t, 2> kJpeg = {0xFF, kStart};
-  return bytes.size() >= kJpeg.size() && std::equal(kJpeg.begin(), kJpeg.end(), bytes.begin());
-}
-
-JpegLayout ReadJpegLayout(std::span<const std::uint8_t> bytes) {
-  JpegLayout layout;
-  if (!IsJpeg(bytes)) return layout;
+PictureLayout OfJpeg(std::span<const std::uint8_t> bytes) {
+  PictureLayout layout{.cut_off = true};
+  int orientation = 1;
   std::span<const std::uint8_t> left = bytes.subspan(2);
   while (!left.empty()) {
     const std::uint8_t marker = TakeMarker(left);
     if (StandsAlone(marker)) continue;
-    layout.whole = marker == kEnd;
+    layout.cut_off = marker != kEnd;
     if (marker == kEnd || marker == kStart || left.size() < kLengthBytes) break;
-    const auto length = static_cast<std::size_t>(BigEndian(left));
+    const auto length = static_cast<std::size_t>(BigEndian(left.first(kLengthBytes)));
     if (length < kLengthBytes || length > left.size()) break;
     const auto content = left.subspan(kLengthBytes, length - kLengthBytes);
     if (IsFrame(marker)) TakeFrame(content, layout);
     if (marker == kScan) ++layout.scans;
-    if (marker == kExif) layout.orientation = ExifOrientation(content).value_or(layout.orientation);
+    if (marker == kExif) orientation = ExifOrientation(content).value_or(orientation);
     left = left.subspan(length);
   }
+  if (!layout.cut_off) layout.orientation = orientation;
   return layout;
+}
+
+}  // namespace
+
+PictureLayout ReadPictureLayout(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 8> kPng = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+  constexpr std::array<std::uint8_t, 2> kJpeg = {0xFF, kStart};
+  if (BeginsWith(bytes, kPng)) return OfPng(bytes);
+  return BeginsWith(bytes, kJpeg) ? OfJpeg(bytes) : PictureLayout{};
 }
 
 }  // namespace trailcast::image
