@@ -179,6 +179,7 @@ void MissionRegistry::On(const mission::Report& report, std::int64_t now_unix_ms
     heard->pause = kSoon;
   }
   NoteCurrent(report);
+  if (mission::HasEnded(report.state)) NoteEnded(report.agent, report.mission);
   notes_.push_back({fmt::format("mission {} of '{}': {}{}{}", report.mission, report.agent.value(),
                                 mission::ToString(report.state), report.detail.empty() ? "" : ": ",
                                 PlainText(report.detail, 200))});
@@ -222,6 +223,52 @@ void MissionRegistry::NoteOther(const mission::Report& report) {
   unended->erase(report.mission);
   if (unended->empty()) unended_.Erase(report.agent);
   if (Heard* heard = heard_.Find(report.agent)) heard->tell_at = {};
+}
+
+void MissionRegistry::NoteEnded(const AgentId& agent, const std::string& id) {
+  auto stored = store_->Get(agent, id);
+  if (!stored) return Warn(stored.error());
+  if (*stored) ended_.Touch(agent) = **std::move(stored);
+}
+
+// Missions end in another order than that in which they were sent, but not long after others.
+const mission::Record* MissionRegistry::LastEnded(const AgentId& agent) {
+  constexpr std::uint32_t kLookedThrough = 64;
+  if (const auto* known = ended_.Find(agent)) return *known ? &**known : nullptr;
+  auto& last = ended_.Touch(agent);
+  auto found = store_->Find(
+      {.agent = agent.value(), .states = EndedStates(), .page_size = kLookedThrough});
+  if (!found) {
+    Warn(found.error());
+    return nullptr;
+  }
+  for (mission::Record& record : found->missions) {
+    if (record.last.change == 0 && !EndsHere(record, record.last.state)) continue;
+    if (!last || last->changed_unix_ms < record.changed_unix_ms) last = std::move(record);
+  }
+  return last ? &*last : nullptr;
+}
+
+std::vector<const mission::Record*> MissionRegistry::QueueOf(const AgentId& agent) const {
+  std::vector<const mission::Record*> waiting;
+  const auto queue = unanswered_.find(agent);
+  if (queue == unanswered_.end()) return waiting;
+  for (const Waiting& each : queue->second) waiting.push_back(&each);
+  return waiting;
+}
+
+bool MissionRegistry::IsHanded(const AgentId& agent) const {
+  const auto queue = unanswered_.find(agent);
+  return queue != unanswered_.end() && queue->second.front().is_handed;
+}
+
+std::vector<const mission::Record*> MissionRegistry::HandedOver() const {
+  std::vector<const mission::Record*> handed;
+  for (const auto& [agent, current] : current_) handed.push_back(&current.record);
+  for (const auto& [agent, queue] : unanswered_) {
+    if (queue.front().is_handed) handed.push_back(&queue.front());
+  }
+  return handed;
 }
 
 const mission::Record* MissionRegistry::CurrentOf(const AgentId& agent) const {

@@ -33,7 +33,8 @@ namespace trailcast::server {
 // that has arrived, because what comes next may begin where the one before was to end. After any
 // other end, and after a stop, it is held until the robot is told to resume, also over a restart of
 // this server, and even if the robot never heard of the stop. A robot that obeys a command to go
-// home is sent there before its queue, which is held likewise.
+// home is sent there before its queue, which is held likewise. A command that sends all robots home
+// holds the queues of all, and also missions that are sent later.
 class MissionRegistry {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -70,9 +71,46 @@ class MissionRegistry {
   // there already. It is asked when a mission to a place is handed over that has waited for others.
   using CheckWay = std::function<Result<bool>(const AgentId& agent, const std::string& goal)>;
   void PlanBy(CheckWay check_way) { check_way_ = std::move(check_way); }
+  // Returns why the first mission of a robot's queue has to wait although the robot could begin it,
+  // or an empty text.
+  using CheckFirst = std::function<std::string(const mission::Record& first)>;
+  void WaitBy(CheckFirst check_first) { check_first_ = std::move(check_first); }
   // Sends a robot another path (mission::Going). It is on the disk when this returns, and is
   // repeated as long as the mission lasts.
   [[nodiscard]] Result<void> Amend(const AgentId& agent, const std::string& orders);
+
+  // The following is for whoever sends robots somewhere before their queues.
+  //
+  // Returns what waits for a robot, the first first.
+  [[nodiscard]] std::vector<const mission::Record*> QueueOf(const AgentId& agent) const;
+  // Returns the robots' present missions, and those that were handed over and are not answered.
+  [[nodiscard]] std::vector<const mission::Record*> HandedOver() const;
+  [[nodiscard]] bool IsAtWork(const AgentId& agent) const {
+    return unended_.Find(agent) != nullptr;
+  }
+  // Returns the mission that a robot has ended last, or null if none is known. One that was dropped
+  // here before its robot had it does not count, unless it is at its end already or was to charge.
+  [[nodiscard]] const mission::Record* LastEnded(const AgentId& agent);
+  // Tells whether the first mission of a robot's queue was handed over to it.
+  [[nodiscard]] bool IsHanded(const AgentId& agent) const;
+  // Takes a mission as the first of its robot's queue. Returns false if it is not stored.
+  [[nodiscard]] bool TakeFirst(const mission::Mission& mission, Time now, std::int64_t now_unix_ms);
+  // Gives a mission that waits another destination. It is on the disk when this returns.
+  [[nodiscard]] Result<void> Direct(const mission::Record& waiting, const std::string& goal);
+  // Drops a mission that waits and is no longer needed.
+  void Withdraw(const mission::Record& waiting, const std::string& why, std::int64_t now_unix_ms);
+  // Holds a robot's queue, or lets it go; it is on the disk when this returns. A hold that `stays`
+  // holds also what is sent later.
+  void Hold(const AgentId& agent, const std::string& why, std::int64_t now_unix_ms,
+            bool stays = false);
+  // Returns why a robot's queue is held, or an empty text.
+  [[nodiscard]] std::string HeldBy(const AgentId& agent) const;
+  // Returns for what the first mission of a robot's queue waits, in words, or an empty text.
+  [[nodiscard]] std::string WhyNotNow(const AgentId& agent) const;
+  // Tells whether a command means a robot, by its name or by one of its missions here.
+  [[nodiscard]] bool IsMeant(const exchange::NowCommand& command, const AgentId& agent) const;
+  // Notes that what a robot's queue waits for may have changed.
+  void NoteQueue(const AgentId& agent) { changed_.insert(agent); }
 
  private:
   MissionRegistry(AgentId server, std::unique_ptr<store::MissionStore> store)
@@ -109,25 +147,20 @@ class MissionRegistry {
     std::optional<Time> expires{};
     mission::Report told{};  // the last report on what it waits for
     bool is_asked = false;   // its sender is to hear that report
+    bool is_handed = false;  // its robot may have it
   };
   using Queue = std::deque<Waiting>;
   using Why = std::function<std::optional<std::string>(const Waiting&)>;
-  void Drop(mission::State state, const Why& why, std::int64_t now_unix_ms);
+  // Holds the queues of those behind which others follow, if `holds`.
+  void Drop(mission::State state, const Why& why, std::int64_t now_unix_ms, bool holds = true);
   void Expire(Time now, std::int64_t now_unix_ms);
-  // Returns for what the first mission of a robot's queue waits, in words, or an empty text.
-  [[nodiscard]] std::string WhyNotNow(const AgentId& agent) const;
   // Makes the report on a mission that waits, behind `before` if that is not null.
   [[nodiscard]] mission::Report Waits(const Waiting& record, const Waiting* before) const;
   void TellQueues();
-  // Holds a robot's queue, or lets it go; it is on the disk when this returns.
-  void Hold(const AgentId& agent, const std::string& why, std::int64_t now_unix_ms);
   void LetGo(const AgentId& agent, std::int64_t now_unix_ms);
   void HoldAfter(const mission::Report& end, std::int64_t now_unix_ms);
-  // Returns why a robot's queue is held, or an empty text.
-  [[nodiscard]] std::string HeldBy(const AgentId& agent) const;
   void HoldOrLetGo(const exchange::NowCommand& command, std::int64_t now_unix_ms);
-  // Tells whether a command means a robot by one of its missions here.
-  [[nodiscard]] bool IsMeant(const exchange::NowCommand& command, const AgentId& agent) const;
+  void NoteEnded(const AgentId& agent, const std::string& id);
   // Gives a mission to a place that has waited for others the path from where its robot stands by
   // now. Returns false if it has ended instead.
   [[nodiscard]] bool PlanAnew(const Waiting& record, std::int64_t now_unix_ms);
@@ -146,7 +179,8 @@ class MissionRegistry {
   // Each robot's missions that it has not answered, the oldest first.
   std::map<AgentId, Queue> unanswered_;
   // Why queues are held, or an empty text for those that were let go.
-  std::map<AgentId, std::string> holds_;
+  std::map<AgentId, store::MissionStore::Hold> holds_;
+  NewestMap<AgentId, std::optional<mission::Record>> ended_{kMostAgents};  // as far as looked up
   std::set<AgentId> changed_;  // the robots of whose queues there may be news
   struct Current {
     mission::Record record{};
@@ -174,6 +208,7 @@ class MissionRegistry {
   NewestMap<NowKey, std::optional<exchange::NowCommand>> commands_{kMostAgents};
   NewestMap<std::pair<AgentId, NowKey>, std::optional<exchange::NowAnswer>> answers_{kMostAgents};
   CheckWay check_way_;
+  CheckFirst check_first_;
   // Missions that cannot be stored are repeated, too.
   ToldLately told_{std::chrono::milliseconds(60'000)};
   std::vector<exchange::Message> outgoing_;

@@ -54,6 +54,7 @@ class MissionStore {
     AgentId agent{};
     std::string why{};
     std::int64_t unix_ms = 0;  // when it was held or let go
+    bool stays = false;        // also while no mission waits
     bool operator==(const Hold&) const = default;
   };
   [[nodiscard]] Result<void> Put(const Hold& hold);

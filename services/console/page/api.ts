@@ -340,7 +340,7 @@ export type Proposal = Omit<Joint, 'used'> & { confidence: number };
 export type Stretch = { route: string; from_m: number; to_m: number | null; speed?: number; cost?: number };
 // How often robots came over it lately, and lost their path there.
 export type LostStretch = Stretch & { passed: number; lost: number; cost: number };
-export type NamedPlace = { name: string; place: Place; home: boolean; used: boolean };
+export type NamedPlace = { name: string; place: Place; home: boolean; dock: boolean; taken_by: string[]; used: boolean };
 
 // Routes that were asked for, with what is on them and between them; and of how many.
 export type NetworkPart = {
@@ -354,6 +354,8 @@ export type NetworkPart = {
     narrow?: { parts: Stretch[]; taken_by: string[] }[];  // not of an older server
     lost?: LostStretch[];  // likewise
     names: NamedPlace[];
+    charge: { below_percent: number; until_percent: number } | null;
+    charging: { robot: string; text: string }[];
   };
   elsewhere: { route: string; joints: number }[];
   matched: number;
