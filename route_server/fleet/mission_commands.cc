@@ -8,6 +8,7 @@
 #include "route_server/fleet/mission_registry.h"
 #include "services/base/process_name.h"
 #include "services/base/unix_time.h"
+#include "services/mission/address.h"
 #include "services/mission/orders.h"
 
 namespace trailcast::server {
@@ -43,6 +44,7 @@ bool MeansMission(const exchange::NowCommand& command, const mission::Mission& m
 // A cancellation voids the missions that were sent before it, even if the robot has not heard of
 // them yet.
 void MissionRegistry::On(const exchange::NowCommand& command, Time now, std::int64_t now_unix_ms) {
+  if (mission::IsGroup(command.name)) AnswerForGroup(command);
   const NowKey key{command.client, command.number};
   if (std::exchange(commands_.Touch(key), command)) return;
   std::vector<AgentId> answered;

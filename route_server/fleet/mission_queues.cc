@@ -9,6 +9,7 @@
 
 #include "route_server/fleet/kept_mission.h"
 #include "route_server/fleet/mission_registry.h"
+#include "services/mission/address.h"
 #include "services/mission/orders.h"
 
 namespace trailcast::server {
@@ -53,20 +54,23 @@ Result<void> MissionRegistry::LoadQueues() {
 }
 
 std::string MissionRegistry::WhyNotNow(const AgentId& agent) const {
+  if (mission::IsGroup(agent.value())) return WhyNobodyIsFree(agent);
   const Heard* heard = heard_.Find(agent);
   if (heard != nullptr && heard->hold == exchange::AgentHold::kStopped) return heard->hold_text;
   const auto queue = unanswered_.find(agent);
   const bool goes_home = queue != unanswered_.end() && SendsHome(queue->second.front());
   if (const std::string held = HeldBy(agent); !held.empty() && !goes_home) return held;
-  if (const auto* unended = unended_.Find(agent)) {
-    const mission::Record* current = CurrentOf(agent);
-    return current == nullptr ? "it does mission " + unended->begin()->first
-                              : fmt::format("it does mission {}: {}", current->mission.id,
-                                            current->mission.orders);
-  }
+  if (IsAtWork(agent)) return AtWorkText(agent);
   if (heard == nullptr) return "it is not heard";
   if (heard->hold == exchange::AgentHold::kPaused) return heard->hold_text;
   return check_first_ && queue != unanswered_.end() ? check_first_(queue->second.front()) : "";
+}
+
+std::string MissionRegistry::AtWorkText(const AgentId& agent) const {
+  const mission::Record* current = CurrentOf(agent);
+  return current == nullptr ? "it does mission " + unended_.Find(agent)->begin()->first
+                            : fmt::format("it does mission {}: {}", current->mission.id,
+                                          current->mission.orders);
 }
 
 mission::Report MissionRegistry::Waits(const Waiting& record, const Waiting* before) const {
@@ -205,7 +209,7 @@ void MissionRegistry::Drop(mission::State state, const Why& why, std::int64_t no
 // answer. A robot that is out of reach with a mission is given as long as any.
 void MissionRegistry::Expire(Time now, std::int64_t now_unix_ms) {
   for (auto& [agent, queue] : unanswered_) {
-    const bool is_heard = heard_.Find(agent) != nullptr;
+    const bool is_heard = IsHeard(agent);
     const bool at_work = unended_.Find(agent) != nullptr;
     const bool first_waits = !WhyNotNow(agent).empty();
     for (Waiting& record : queue) {

@@ -35,6 +35,9 @@ namespace trailcast::server {
 // this server, and even if the robot never heard of the stop. A robot that obeys a command to go
 // home is sent there before its queue, which is held likewise. A command that sends all robots home
 // holds the queues of all, and also missions that are sent later.
+//
+// A mission for a group (mission/address.h) waits in a queue of the group, and is given to the first
+// robot of it that is free. One for several is taken for all of them or not at all.
 class MissionRegistry {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -136,6 +139,20 @@ class MissionRegistry {
   // Asks robots that are met whether they still do the missions that are taken to be under way.
   void Agree(Time now);
   void Keep(const mission::Mission& mission, mission::Record stored);
+  void TakeForAll(const mission::Mission& mission, const std::vector<std::string>& addressed,
+                  Time now, std::int64_t now_unix_ms);
+  // Returns the same mission for the robot of its group that has it already, if there is one.
+  [[nodiscard]] Result<mission::Mission> AsTaken(mission::Mission mission);
+  // Gives missions of groups to robots that are free.
+  void GiveToGroups();
+  [[nodiscard]] std::vector<AgentId> HeardOf(const AgentId& group) const;
+  // Returns why a robot cannot begin a mission of its group now, or an empty text.
+  [[nodiscard]] std::string WhyNotFree(const AgentId& robot, const mission::Record& record) const;
+  [[nodiscard]] std::string WhyNobodyIsFree(const AgentId& group) const;
+  [[nodiscard]] std::string AtWorkText(const AgentId& agent) const;
+  [[nodiscard]] bool IsHeard(const AgentId& agent) const;
+  // Answers a command to a group, which means what waits for it.
+  void AnswerForGroup(const exchange::NowCommand& command);
   // Drops, in one commit, the missions that no robot has answered and for which `why` gives a
   // reason. `expires` is by the time that passes here, however the server's clock is set meanwhile;
   // it is empty until the mission was first looked at. `since_unix_ms` is when its robot could have
@@ -203,6 +220,7 @@ class MissionRegistry {
   };
   NewestMap<AgentId, Heard> heard_{kMostAgents};
   Time expire_at_{};
+  Time give_at_{};  // missions to groups
   // The commands and answers that are stored, because they are repeated.
   using NowKey = std::pair<AgentId, std::uint64_t>;
   NewestMap<NowKey, std::optional<exchange::NowCommand>> commands_{kMostAgents};

@@ -20,6 +20,7 @@ export type Order = 'pause' | 'resume' | 'cancel' | 'stop' | 'release' | 'end' |
 
 export type Robot = {
   name: string;
+  group: string;  // those that are numbered alike are one: "cart" of "cart-1"
   role: string;
   state: RobotState;
   detail: string;
@@ -260,6 +261,18 @@ export async function send(robot: string, orders: string): Promise<Answer> {
     if (json.error) return { ok: false, text: json.error };
     const kept = json.state === 'sent';
     const text = kept ? `Queued${json.detail ? `: ${json.detail}` : ', until the robot is heard'}.` : `${json.state} ${json.detail}`;
+    return { ok: status === 200, text };
+  } catch {
+    return unreachable;
+  }
+}
+
+// Sends one of a group ("@cart"), or several, which all get it or none.
+export async function sendTo(to: string, orders: string): Promise<Answer> {
+  try {
+    const { status, json } = await post('/api/missions', { to, orders });
+    if (json.error) return { ok: false, text: json.error };
+    const text = json.missions.map(({ robot, state, detail }: Mission) => `${robot}: ${state}${detail ? `: ${detail}` : ''}`).join('; ');
     return { ok: status === 200, text };
   } catch {
     return unreachable;

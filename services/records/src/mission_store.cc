@@ -314,6 +314,32 @@ std::vector<Result<mission::Record>> MissionStore::Add(std::span<const mission::
   return Stored(missions.size(), tl::unexpected(stored.error()));
 }
 
+Result<std::vector<mission::Record>> MissionStore::AddAll(
+    std::span<const mission::Mission> missions, std::int64_t now_unix_ms) {
+  using Stored = std::vector<mission::Record>;
+  return database_->AllOrNothing("storing missions", [&]() -> Result<Stored> {
+    Stored stored;
+    for (const mission::Mission& mission : missions) {
+      auto added = database_->Add(mission, now_unix_ms);
+      if (!added) return tl::unexpected(added.error());
+      stored.push_back(*std::move(added));
+    }
+    return stored;
+  });
+}
+
+Result<void> MissionStore::Assign(const AgentId& group, const std::string& id,
+                                  const AgentId& robot) {
+  return database_->AllOrNothing("giving mission " + id + " to a robot", [&]() -> Result<void> {
+    if (database_->Get(robot, id)) {
+      return Fail(ErrorCode::kConflict, "'{}' has a mission {} already", robot.value(), id);
+    }
+    database_->Run("UPDATE mission SET agent = ?3 WHERE agent = ?1 AND id = ?2", group.value(), id,
+                   robot.value());
+    return {};
+  });
+}
+
 Result<bool> MissionStore::Amend(const AgentId& agent, const std::string& id,
                                  const std::string& orders) {
   return database_->AllOrNothing("storing other orders of mission " + id, [&]() -> Result<bool> {

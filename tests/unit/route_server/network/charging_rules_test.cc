@@ -52,19 +52,23 @@ TEST(ChargingRules, ItChargesUntilItIsFullEnoughAndMayGoOnThen) {
   EXPECT_EQ(Charges(docked, kLimits), "") << "it was full, or an operator wants it";
 }
 
+std::set<AgentId> Now(const std::set<AgentId>& before, const Sighting& seen) {
+  return HoldersNow(before, std::vector{seen});
+}
+
 TEST(ChargingRules, ARobotHasADockUntilItIsKnownToBeElsewhere) {
   Sighting seen{.agent = kRobot, .is_heard = true, .is_placed = true};
   seen.goes_there = true;
-  EXPECT_THAT(HoldersNow({}, {{seen}}), ElementsAre(kRobot));
+  EXPECT_THAT(Now({}, seen), ElementsAre(kRobot));
   seen.goes_there = false;
-  EXPECT_THAT(HoldersNow({kRobot}, {{seen}}), IsEmpty());
+  EXPECT_THAT(Now({kRobot}, seen), IsEmpty());
   seen.is_there = true;
-  EXPECT_THAT(HoldersNow({kOther}, {{seen}}), ElementsAre(kRobot, kOther));
+  EXPECT_THAT(Now({kOther}, seen), ElementsAre(kRobot, kOther));
   seen.is_heard = false;
-  EXPECT_THAT(HoldersNow({kRobot}, {{seen}}), ElementsAre(kRobot)) << "silent, it stands there";
-  EXPECT_THAT(HoldersNow({}, {{seen}}), IsEmpty()) << "somebody has looked";
+  EXPECT_THAT(Now({kRobot}, seen), ElementsAre(kRobot)) << "silent, it stands there";
+  EXPECT_THAT(Now({}, seen), IsEmpty()) << "somebody has looked";
   seen.is_there = seen.is_placed = false;
-  EXPECT_THAT(HoldersNow({kRobot}, {{seen}}), ElementsAre(kRobot)) << "after a restart";
+  EXPECT_THAT(Now({kRobot}, seen), ElementsAre(kRobot)) << "after a restart";
   EXPECT_THAT(HoldersNow({kRobot}, {}), ElementsAre(kRobot));
 }
 
