@@ -59,7 +59,7 @@ struct SimulatedRun {
   // The file for the frames' true poses, for whoever judges the run: CSV `t_s,x_m,y_m,heading_rad`
   // in the world's frame. It may be empty.
   std::filesystem::path truth{};
-  double battery_minutes = 0.0;      // how long a full one lasts; with 0 it reports none
+  double battery_minutes = 0.0;  // how long a full one lasts; with 0 it reports none
   std::optional<Charger> charger{};
   std::vector<RoughGround> rough{};  // bumps in addition to the place's ground
   std::optional<CarriedOff> carried{};

@@ -59,8 +59,8 @@ void MissionRegistry::AnswerForGroup(const exchange::NowCommand& command) {
                                  .refused = !waits || !is_for_groups,
                                  .detail = !is_for_groups ? "a group is told to cancel, stop or "
                                                             "resume alone; tell its robots"
-                                           : waits ? "what waits for the group is told so"
-                                                   : "no mission waits for the group",
+                                           : waits        ? "what waits for the group is told so"
+                                                          : "no mission waits for the group",
                                  .relayed = true};
   }
   outgoing_.emplace_back(*answer);
@@ -140,8 +140,8 @@ void MissionRegistry::GiveToGroups() {
       given.told = {};
       given.is_asked = true;
       given.expires.reset();
-      notes_.push_back({fmt::format("'{}' takes {} of {}", robot.value(), given.mission.id,
-                                    group.value())});
+      notes_.push_back(
+          {fmt::format("'{}' takes {} of {}", robot.value(), given.mission.id, group.value())});
       unanswered_[robot].push_back(std::move(given));
       changed_.insert(robot);
       heard_.Find(robot)->tell_at = {};

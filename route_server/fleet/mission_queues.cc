@@ -68,9 +68,9 @@ std::string MissionRegistry::WhyNotNow(const AgentId& agent) const {
 
 std::string MissionRegistry::AtWorkText(const AgentId& agent) const {
   const mission::Record* current = CurrentOf(agent);
-  return current == nullptr ? "it does mission " + unended_.Find(agent)->begin()->first
-                            : fmt::format("it does mission {}: {}", current->mission.id,
-                                          current->mission.orders);
+  return current == nullptr
+             ? "it does mission " + unended_.Find(agent)->begin()->first
+             : fmt::format("it does mission {}: {}", current->mission.id, current->mission.orders);
 }
 
 mission::Report MissionRegistry::Waits(const Waiting& record, const Waiting* before) const {
@@ -139,8 +139,7 @@ void MissionRegistry::Withdraw(const mission::Record& waiting, const std::string
   Drop(
       mission::State::kExpired,
       [&](const Waiting& each) {
-        const bool is_this =
-            each.mission.agent == mission.agent && each.mission.id == mission.id;
+        const bool is_this = each.mission.agent == mission.agent && each.mission.id == mission.id;
         return is_this ? std::optional(why) : std::nullopt;
       },
       now_unix_ms, false);

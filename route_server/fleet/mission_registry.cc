@@ -249,8 +249,8 @@ const mission::Record* MissionRegistry::LastEnded(const AgentId& agent) {
   constexpr std::uint32_t kLookedThrough = 64;
   if (const auto* known = ended_.Find(agent)) return *known ? &**known : nullptr;
   auto& last = ended_.Touch(agent);
-  auto found = store_->Find(
-      {.agent = agent.value(), .states = EndedStates(), .page_size = kLookedThrough});
+  auto found =
+      store_->Find({.agent = agent.value(), .states = EndedStates(), .page_size = kLookedThrough});
   if (!found) {
     Warn(found.error());
     return nullptr;

@@ -36,8 +36,8 @@ namespace trailcast::server {
 // home is sent there before its queue, which is held likewise. A command that sends all robots home
 // holds the queues of all, and also missions that are sent later.
 //
-// A mission for a group (mission/address.h) waits in a queue of the group, and is given to the first
-// robot of it that is free. One for several is taken for all of them or not at all.
+// A mission for a group (mission/address.h) waits in a queue of the group, and is given to the
+// first robot of it that is free. One for several is taken for all of them or not at all.
 class MissionRegistry {
  public:
   using Time = std::chrono::steady_clock::time_point;

@@ -80,8 +80,8 @@ RobotSeen Charging::SeenOf(const AgentId& agent, const Robot& robot) {
   RobotSeen seen{.agent = agent};
   if (robot.is_heard) seen.battery_percent = robot.battery_percent;
   const mission::Record* current = missions_.CurrentOf(agent);
-  seen.is_sent = WaitingToCharge(agent) != nullptr ||
-                 (current != nullptr && SendsToCharge(*current));
+  seen.is_sent =
+      WaitingToCharge(agent) != nullptr || (current != nullptr && SendsToCharge(*current));
   if (missions_.IsAtWork(agent)) return seen;
   const mission::Record* last = missions_.LastEnded(agent);
   if (last == nullptr || !SendsToCharge(*last)) return seen;
@@ -181,12 +181,13 @@ void Charging::Send(const AgentId& agent, Time now, std::int64_t now_unix_ms) {
   if (is_idle && !arrived && missions_.HeldBy(agent).empty()) {
     missions_.Hold(agent, NotArrived(last->last), now_unix_ms);
   }
-  const bool is_stored = missions_.TakeFirst({.agent = agent,
-                                              .id = fmt::format("{}{:x}", kChargePrefix, now_unix_ms),
-                                              .client = server_,
-                                              .orders = OrdersWithoutWay(kChargeWord),
-                                              .valid_for_s = kChargeWithin_s},
-                                             now, now_unix_ms);
+  const bool is_stored =
+      missions_.TakeFirst({.agent = agent,
+                           .id = fmt::format("{}{:x}", kChargePrefix, now_unix_ms),
+                           .client = server_,
+                           .orders = OrdersWithoutWay(kChargeWord),
+                           .valid_for_s = kChargeWithin_s},
+                          now, now_unix_ms);
   if (!is_stored) Warn(fmt::format("'{}' cannot be sent to charge", agent.value()));
 }
 

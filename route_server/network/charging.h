@@ -69,7 +69,7 @@ class Charging {
   NetworkRegistry& network_;
   std::vector<Dock> docks_;  // as they were last looked at
   NewestMap<AgentId, Robot> robots_{MissionRegistry::kMostAgents};
-  bool was_on_ = false;      // robots were sent to charge
+  bool was_on_ = false;  // robots were sent to charge
   std::optional<Time> look_at_{};
   // What cannot be done is tried again.
   ToldLately told_{std::chrono::milliseconds(60'000)};

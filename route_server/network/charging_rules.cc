@@ -53,8 +53,9 @@ std::string OthersIn(const std::set<AgentId>& holders, const AgentId& agent) {
 
 DockChoice ChooseDock(const AgentId& agent, std::span<const DockSeen> docks) {
   if (docks.empty()) {
-    return {.why_none = "no place is a dock that robots follow a route to: 'trailcast network name "
-                        "NAME ROUTE@METRES dock' makes it one"};
+    return {.why_none =
+                "no place is a dock that robots follow a route to: 'trailcast network name "
+                "NAME ROUTE@METRES dock' makes it one"};
   }
   const DockSeen* nearest = nullptr;
   const DockSeen* unreached = nullptr;

@@ -241,7 +241,7 @@ class NetworkRegistry {
   std::optional<network::ChargeLimits> charge_limits_;
   std::vector<network::Charging> charging_;
   std::vector<store::ProposedJunction> proposed_;  // of revisions
-  std::vector<store::KeptLane> lanes_;                // of routes
+  std::vector<store::KeptLane> lanes_;             // of routes
   std::set<AgentId> vacated_;
   FollowedLately followed_;
   std::vector<FollowedLately::Poor> poor_;  // sections by which paths are planned

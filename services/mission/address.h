@@ -13,8 +13,8 @@ namespace trailcast::mission {
 // for several of both, with commas between them, which all get it or none.
 inline constexpr std::size_t kMostAddressed = 16;
 
-// Robots that are numbered alike are a group: "cart" of "cart-1", "cart_2" and "cart3". The group of
-// a robot without a number has its own name.
+// Robots that are numbered alike are a group: "cart" of "cart-1", "cart_2" and "cart3". The group
+// of a robot without a number has its own name.
 [[nodiscard]] std::string GroupOf(std::string_view robot);
 [[nodiscard]] bool IsGroup(std::string_view address);  // "@cart"
 // Tells whether an address of one, or of a group, means a robot.

@@ -74,8 +74,8 @@ struct Edit {
   Junction junction{};  // of kJoin and kPart; of kConfirm and kRefuse without `all`
   // This is of kClose, kOpen, kBack, kAhead and kLimit. It is the section of kWide and kVacate.
   Condition condition{};
-  Lane lane{};         // of kNarrow
-  NamedPlace named{};  // of kName; only the name of kForget
+  Lane lane{};                           // of kNarrow
+  NamedPlace named{};                    // of kName; only the name of kForget
   std::optional<ChargeLimits> charge{};  // of kCharge; empty for never
   struct Sure {
     double least = 0.0;

@@ -47,10 +47,10 @@ struct FollowedSection {
 
 // Keeps the network in a SQLite file of its own, created if missing: junctions, conditions on
 // sections and names of places as operators set them, proposed junctions, holders of mutex zones,
-// robots at docks, when robots charge, and how sections were followed. A call's data is on the disk when it returns. The caller decides
-// which routes places and conditions name. Errors name the file: kUnavailable (disk full, no such
-// folder, too many), kConflict (another process has it open), kCorrupt (not our file, or a damaged
-// one).
+// robots at docks, when robots charge, and how sections were followed. A call's data is on the disk
+// when it returns. The caller decides which routes places and conditions name. Errors name the
+// file: kUnavailable (disk full, no such folder, too many), kConflict (another process has it
+// open), kCorrupt (not our file, or a damaged one).
 class NetworkStore {
  public:
   static constexpr std::int64_t kMostJunctions = 100'000;

@@ -69,6 +69,8 @@ constexpr Row kRows[] = {
     {"POST", "/api/robots/*/missions", Role::kOperate},
     {"POST", "/api/network/edits", Role::kOperate},
     {"POST", "/api/schedules", Role::kOperate},
+    {"POST", "/api/schedules/preview", Role::kOperate},
+    {"PUT", "/api/schedules/*", Role::kOperate},
     {"DELETE", "/api/schedules/*", Role::kOperate},
     {"POST", "/api/schedules/*/*", Role::kOperate},
     {"PUT", "/api/site/placements/*", Role::kOperate},

@@ -185,15 +185,13 @@ std::string NetworkText(const Lines& lines) {
 
 Json NetworkJson(const Lines& lines) {
   Json network;
-  for (const char* name :
-       {"routes", "joints", "closed", "backed", "limits", "narrow", "names", "proposed", "lost",
-        "charging"}) {
+  for (const char* name : {"routes", "joints", "closed", "backed", "limits", "narrow", "names",
+                           "proposed", "lost", "charging"}) {
     network[name] = Json::array();
   }
   network["charge"] = nullptr;
   for (const std::string& line : lines) {
-    const auto [used, route, edit, proposal, lost, charging, taken_by] =
-        network::ParseListed(line);
+    const auto [used, route, edit, proposal, lost, charging, taken_by] = network::ParseListed(line);
     if (route) {
       network["routes"].push_back(
           {{"route", route->name}, {"length_m", Rounded(route->length_m, 100.0)}});

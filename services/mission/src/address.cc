@@ -33,11 +33,12 @@ Result<std::vector<std::string>> ParseAddress(std::string_view text) {
     const std::size_t comma = std::min(text.find(','), text.size());
     std::string each(text.substr(0, comma));
     if (!IsValidName(IsGroup(each) ? each.substr(1) : each)) {
-      return Fail(ErrorCode::kInvalidArgument,
-                  "'{}' is no robot: expected a name of 1 to 64 letters, digits, '_', '.' and '-', "
-                  "'@' and the name of a group, as '@cart' for a free one of cart-1, cart-2, .., or "
-                  "several with commas between them",
-                  each);
+      return Fail(
+          ErrorCode::kInvalidArgument,
+          "'{}' is no robot: expected a name of 1 to 64 letters, digits, '_', '.' and '-', "
+          "'@' and the name of a group, as '@cart' for a free one of cart-1, cart-2, .., or "
+          "several with commas between them",
+          each);
     }
     if (std::find(all.begin(), all.end(), each) != all.end()) {
       return Fail(ErrorCode::kInvalidArgument, "'{}' is there twice", each);

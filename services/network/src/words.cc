@@ -150,8 +150,9 @@ Result<Edit> TakeCharge(Words& words) {
   if (words.TakeIf("below")) {
     auto below = TakePercent(words, 1, 99);
     if (!below) return tl::unexpected(below.error());
-    edit.charge = ChargeLimits{.below_percent = *below,
-                               .until_percent = std::max(*below + 1, ChargeLimits::kUsualUntil_percent)};
+    edit.charge =
+        ChargeLimits{.below_percent = *below,
+                     .until_percent = std::max(*below + 1, ChargeLimits::kUsualUntil_percent)};
     if (words.TakeIf("until")) {
       auto until = TakePercent(words, *below + 1, 100);
       if (!until) return tl::unexpected(until.error());

@@ -61,8 +61,8 @@ Result<void> NetworkStore::Forget(const std::string& name) {
 }
 
 Result<std::map<std::string, std::set<AgentId>>> NetworkStore::DockHolders() {
-  const auto rows =
-      database_->Read("reading who is at docks", "SELECT dock, agent FROM dock_holder", DockHolderIn);
+  const auto rows = database_->Read("reading who is at docks",
+                                    "SELECT dock, agent FROM dock_holder", DockHolderIn);
   if (!rows) return tl::unexpected(rows.error());
   std::map<std::string, std::set<AgentId>> holders;
   for (const auto& [dock, agent] : *rows) holders[dock].insert(agent);

@@ -82,7 +82,8 @@ constexpr const char* kSendExamples =
     "  trailcast send robot1 goto office@8           # round what is closed, or refused\n"
     "  trailcast send robot1 goto loading-bay\n"
     "  trailcast send robot1 --again 4f2a09c1d3e5b687  # what failed, once more\n"
-    "  trailcast send @cart follow hall              # whichever of cart-1, cart-2, .. is free first\n"
+    "  trailcast send @cart follow hall              # whichever of cart-1, cart-2, .. is free "
+    "first\n"
     "  trailcast send cart-1,cart-2,lift follow hall # all of them or none\n"
     "A robot does one mission at a time. A server keeps the others in a queue, and what a robot\n"
     "cannot hear yet; 'trailcast missions --open' shows them. The queue goes on by itself after a\n"
@@ -139,8 +140,8 @@ Result<std::optional<std::string>> GoalOf(const SendOptions& options) {
 Result<std::string> OrdersWithoutPath(const std::string& goal, const fleet::OperatorPeer& peer,
                                       const SendOptions& options) {
   if (goal != mission::kHomeWord) {
-    const auto way = fleet::AskForWay(*peer.exchange, peer.self, goal, goal,
-                                      ToMilliseconds(options.timeout_s));
+    const auto way =
+        fleet::AskForWay(*peer.exchange, peer.self, goal, goal, ToMilliseconds(options.timeout_s));
     if (!way) return tl::unexpected(way.error());
   }
   return fmt::format("goto {} wait way", goal);
@@ -195,9 +196,9 @@ int Send(const CLI::App& app, const program::CommonOptions& common, SendOptions 
   auto peer = fleet::JoinAsOperator(common, use);
   if (!peer) return program::Complain(app, peer.error());
   for (const std::string& each : *mission::ParseAddress(options.robot)) {
-    const auto unknown = options.unheard ? std::nullopt
-                                         : fleet::FindUnknown(*peer->exchange, peer->self, each,
-                                                              kAllAreHeard);
+    const auto unknown = options.unheard
+                             ? std::nullopt
+                             : fleet::FindUnknown(*peer->exchange, peer->self, each, kAllAreHeard);
     if (!unknown) continue;
     return program::Complain(app,
                              {unknown->code, unknown->message + "; --unheard has a server keep "
@@ -242,8 +243,7 @@ int Send(const CLI::App& app, const program::CommonOptions& common, SendOptions 
     fmt::print("{}", program::Indented(IsForOne(options) ? all.front() : all));
   }
   const bool well = std::all_of(reports->begin(), reports->end(), [&](const auto& report) {
-    return report.state == State::kArrived ||
-           (!options.wait && !mission::HasEnded(report.state));
+    return report.state == State::kArrived || (!options.wait && !mission::HasEnded(report.state));
   });
   return well ? program::kExitOk : program::kExitFailure;
 }

@@ -83,12 +83,14 @@ TEST(NetworkWords, WhatIsNotUnderstoodIsNamed) {
   EXPECT_THAT(Why("name loading bay office@8"), HasSubstr("'bay'"));
   EXPECT_THAT(Why("name " + std::string(65, 'x') + " office@8"), HasSubstr("up to 64"));
   EXPECT_THAT(Why("forget bay office@8"), HasSubstr("nothing more"));
-  EXPECT_THAT(Why("name dock office@8 away"), HasSubstr("'away': expected 'home', 'dock' or nothing more"));
+  EXPECT_THAT(Why("name dock office@8 away"),
+              HasSubstr("'away': expected 'home', 'dock' or nothing more"));
   EXPECT_THAT(Why("name dock office@8 home home"), HasSubstr("expected 'dock' or nothing more"));
   EXPECT_THAT(Why("name dock office@8 dock home"), HasSubstr("expected nothing more"));
   EXPECT_THAT(Why("charge"), HasSubstr("expected 'below PERCENT [until PERCENT]' or 'never'"));
   EXPECT_THAT(Why("charge below 0"), HasSubstr("'0': expected per cent of a battery, 1 to 99"));
-  EXPECT_THAT(Why("charge below 40 until 40"), HasSubstr("'40': expected per cent of a battery, 41"));
+  EXPECT_THAT(Why("charge below 40 until 40"),
+              HasSubstr("'40': expected per cent of a battery, 41"));
   EXPECT_THAT(Why("charge below 20 until 101"), HasSubstr("'101': expected"));
   EXPECT_THAT(Why("charge never again"), HasSubstr("'again': expected nothing more"));
 }

@@ -45,7 +45,7 @@ struct SimulatedDevice::State {
   double battery_s = 0.0;  // how long it lasts; with 0 it reports none
   std::atomic<double> charge = 1.0;
   std::optional<Charger> charger;
-  double charged_at_s = 0.0;  // when `charge` was so
+  double charged_at_s = 0.0;          // when `charge` was so
   bool begun = false;                 // there was a frame
   std::optional<CarriedOff> carried;  // still to come
   double driven_m = 0.0;
@@ -168,8 +168,7 @@ void SimulatedDevice::State::Drain(double now_s, const motion::Pose2& pose) {
   const bool charges =
       charger &&
       (motion::Position(pose) - Eigen::Vector2d(charger->x_m, charger->y_m)).norm() <= kAtCharger_m;
-  const double gained =
-      charges ? passed_s / (60.0 * charger->minutes) : -passed_s / battery_s;
+  const double gained = charges ? passed_s / (60.0 * charger->minutes) : -passed_s / battery_s;
   charge = std::clamp(charge + gained, 0.0, 1.0);
 }
 

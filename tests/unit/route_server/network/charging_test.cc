@@ -162,7 +162,8 @@ TEST_F(ChargingTest, ARobotChargesAfterItsMissionAndBeforeItsQueue) {
   EXPECT_THAT(Listed(), Contains("name dock1 hall@12 dock, taken by robot1"));
   Says("robot1", handed_["robot1"], State::kUnderWay);
   (void)Pass();
-  EXPECT_THAT(Listed(), Contains("charging robot1 goes to dock1 to charge, its battery is at 18 %"));
+  EXPECT_THAT(Listed(),
+              Contains("charging robot1 goes to dock1 to charge, its battery is at 18 %"));
   Does("robot1", 12.1, 17);
   const std::string charges =
       "charges at dock1: its battery is at 17 %, and it goes on at 90 %, or when it is told to "
