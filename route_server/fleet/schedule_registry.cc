@@ -124,9 +124,10 @@ Result<void> ScheduleRegistry::Add(schedule::Schedule schedule, const std::strin
                                    std::int64_t now_unix_ms) {
   if (const auto known = entries_.find(schedule.name); known != entries_.end()) {
     if (known->second.schedule == schedule) return {};
-    return Fail(ErrorCode::kConflict,
-                "there is a schedule {} already, {}: change that, remove it first, or take another name",
-                schedule.name, WhenText(known->second.schedule));
+    return Fail(
+        ErrorCode::kConflict,
+        "there is a schedule {} already, {}: change that, remove it first, or take another name",
+        schedule.name, WhenText(known->second.schedule));
   }
   if (entries_.size() >= kMostSchedules) {
     return Fail(ErrorCode::kUnavailable, "there are {} schedules already: remove some",

@@ -86,7 +86,7 @@ RobotSeen Charging::SeenOf(const AgentId& agent, const Robot& robot) {
   const mission::Record* last = missions_.LastEnded(agent);
   if (last == nullptr || !SendsToCharge(*last)) return seen;
   const Dock* dock = last->last.state == mission::State::kArrived ? DockOf(*last) : nullptr;
-  if (dock != nullptr) seen.dock = dock->name;
+  if (dock != nullptr && robot.moved_after != last->mission.id) seen.dock = dock->name;
   seen.may_go_on = robot.gone_on == last->mission.id;
   return seen;
 }
@@ -111,6 +111,11 @@ void Charging::NoteHolders() {
   for (const auto& [agent, robot] : robots_) {
     const mission::Record* waiting = WaitingToCharge(agent);
     if (waiting != nullptr) going.emplace(agent, DockOf(*waiting));
+    // It may have arrived a little beside it.
+    if (const mission::Record* last = missions_.LastEnded(agent);
+        last != nullptr && !SeenOf(agent, robot).dock.empty()) {
+      going.emplace(agent, DockOf(*last));
+    }
     const auto* stand = network_.StandOf(agent);
     robots.emplace_back(
         Sighting{.agent = agent, .is_heard = robot.is_heard, .is_placed = stand != nullptr},
@@ -138,6 +143,11 @@ void Charging::Tick(Time now, std::int64_t now_unix_ms) {
   docks_ = *std::move(docks);
   if (docks_.empty() && !network_.charge_limits() && !was_on_) return;
   was_on_ = network_.charge_limits().has_value();
+  for (const AgentId& agent : network_.TakeSentOff()) {
+    Robot* robot = robots_.Find(agent);
+    const mission::Record* last = missions_.LastEnded(agent);
+    if (robot != nullptr && last != nullptr) robot->moved_after = last->mission.id;
+  }
   NoteHolders();
   std::vector<AgentId> agents;
   for (const auto& [agent, robot] : robots_) agents.push_back(agent);

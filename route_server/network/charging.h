@@ -43,9 +43,10 @@ class Charging {
   struct Robot {
     bool is_heard = false;  // and takes missions
     std::optional<std::uint8_t> battery_percent{};
-    std::string gone_on{};    // the mission to charge after which it may go on
-    std::string no_dock{};    // why none was chosen for its mission to charge
-    std::string last_text{};  // for people
+    std::string gone_on{};      // the mission to charge after which it may go on
+    std::string moved_after{};  // likewise: somebody says that it is not at the dock any more
+    std::string no_dock{};      // why none was chosen for its mission to charge
+    std::string last_text{};    // for people
   };
 
   [[nodiscard]] RobotSeen SeenOf(const AgentId& agent, const Robot& robot);

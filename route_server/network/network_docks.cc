@@ -47,6 +47,7 @@ Result<std::vector<std::string>> NetworkRegistry::VacateDocks(const network::Con
     if (auto left = HoldDock(name, {}); !left) return tl::unexpected(left.error());
     for (const AgentId& agent : holders) {
       places_.Erase(agent);
+      sent_off_.insert(agent);
       lines.push_back(fmt::format("{} no longer has {}", agent.value(), name));
     }
   }

@@ -124,6 +124,9 @@ class NetworkRegistry {
     std::set<AgentId> holders{};
   };
   [[nodiscard]] Result<std::vector<Dock>> Docks();
+  // Returns the robots of which an operator has said since the last call that they are not at
+  // docks.
+  [[nodiscard]] std::set<AgentId> TakeSentOff() { return std::exchange(sent_off_, {}); }
   // This is on the disk when it returns.
   [[nodiscard]] Result<void> HoldDock(const std::string& name, const std::set<AgentId>& holders);
   [[nodiscard]] const std::optional<network::ChargeLimits>& charge_limits() const {
@@ -243,6 +246,7 @@ class NetworkRegistry {
   std::vector<store::ProposedJunction> proposed_;  // of revisions
   std::vector<store::KeptLane> lanes_;             // of routes
   std::set<AgentId> vacated_;
+  std::set<AgentId> sent_off_;
   FollowedLately followed_;
   std::vector<FollowedLately::Poor> poor_;  // sections by which paths are planned
   std::set<std::string> searched_;          // revisions

@@ -20,7 +20,7 @@ inline constexpr std::size_t kMostAddressed = 16;
 // Tells whether an address of one, or of a group, means a robot.
 [[nodiscard]] bool Means(std::string_view address, std::string_view robot);
 // Returns the robots and groups in an address. Fails with kInvalidArgument for what is no name, and
-// if one is there twice.
+// if a robot is there twice, or beside its group.
 [[nodiscard]] Result<std::vector<std::string>> ParseAddress(std::string_view text);
 
 }  // namespace trailcast::mission

@@ -218,8 +218,7 @@ std::string CalendarText(const std::vector<Firing>& firings) {
 Json CalendarJson(const std::vector<Firing>& firings) {
   Json all = Json::array();
   for (const Firing& each : firings) {
-    all.push_back(
-        {{"unix_ms", each.unix_ms}, {"text", each.text}, {"schedule", each.schedule}});
+    all.push_back({{"unix_ms", each.unix_ms}, {"text", each.text}, {"schedule", each.schedule}});
   }
   return all;
 }

@@ -48,9 +48,17 @@ Result<std::vector<std::string>> ParseAddress(std::string_view text) {
       return Fail(ErrorCode::kInvalidArgument, "one mission is for {} robots at most",
                   kMostAddressed);
     }
-    if (comma == text.size()) return all;
+    if (comma == text.size()) break;
     text.remove_prefix(comma + 1);
   }
+  for (const std::string& group : all) {
+    for (const std::string& robot : all) {
+      if (!IsGroup(group) || IsGroup(robot) || !Means(group, robot)) continue;
+      return Fail(ErrorCode::kInvalidArgument, "'{}' is one of '{}': name one of them", robot,
+                  group);
+    }
+  }
+  return all;
 }
 
 }  // namespace trailcast::mission

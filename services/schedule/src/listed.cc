@@ -15,9 +15,7 @@ namespace {
 constexpr std::string_view kEdit = "schedule ";
 constexpr std::array<std::string_view, 5> kKinds{"add", "change", "remove", "pause", "resume"};
 
-bool HasWords(Edit::Kind kind) {
-  return kind == Edit::Kind::kAdd || kind == Edit::Kind::kChange;
-}
+bool HasWords(Edit::Kind kind) { return kind == Edit::Kind::kAdd || kind == Edit::Kind::kChange; }
 
 // Takes the first word off a text.
 std::string TakeWord(std::string_view& text) {

@@ -188,8 +188,8 @@ int ShowCalendar(const CLI::App& app, const program::CommonOptions& common,
       fleet::AskForSchedules(*peer->exchange, peer->self, ToMilliseconds(options.timeout_s));
   if (!known) return program::Complain(app, known.error());
   const auto firings = fleet::CalendarOf(known->schedules, NowUnixMs(), options.days);
-  const std::string text = options.json ? program::Indented(fleet::CalendarJson(firings))
-                                        : fleet::CalendarText(firings);
+  const std::string text =
+      options.json ? program::Indented(fleet::CalendarJson(firings)) : fleet::CalendarText(firings);
   std::fputs(text.c_str(), stdout);
   return program::kExitOk;
 }

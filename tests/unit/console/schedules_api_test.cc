@@ -108,12 +108,13 @@ TEST_F(SchedulesApiTest, AreChangedAndStayPaused) {
   ASSERT_EQ(Add("round to robot1 at 08:30 zone UTC do follow hall").status, 200);
   ASSERT_EQ(Tell("round", "pause").status, 200);
   const auto change = [&](const std::string& name, const std::string& words) {
-    return ReplyOf(Client().Put("/api/schedules/" + name, json{{"words", words}}.dump(),
-                                "application/json"));
+    return ReplyOf(
+        Client().Put("/api/schedules/" + name, json{{"words", words}}.dump(), "application/json"));
   };
   const Replied changed =
-      change("round", "round to robot2 every 20 from 08:00 until 18:00 on sat,sun zone Asia/Tokyo "
-                      "do follow yard");
+      change("round",
+             "round to robot2 every 20 from 08:00 until 18:00 on sat,sun zone Asia/Tokyo "
+             "do follow yard");
   ASSERT_EQ(changed.status, 200) << changed.body;
   const json round = List().body["schedules"][0];
   EXPECT_EQ(round["robots"], json({"robot2"}));
@@ -145,8 +146,8 @@ TEST_F(SchedulesApiTest, TheCalendarHasWhatIsDueNextOfAll) {
 TEST_F(SchedulesApiTest, APreviewSaysWhenItWouldBeDueAndKeepsNothing) {
   Serve();
   const auto preview = [&](const std::string& words) {
-    return ReplyOf(Client().Post("/api/schedules/preview", json{{"words", words}}.dump(),
-                                 "application/json"));
+    return ReplyOf(
+        Client().Post("/api/schedules/preview", json{{"words", words}}.dump(), "application/json"));
   };
   const Replied good = preview("round to robot1 at 08:30 zone UTC valid 600 do follow hall");
   ASSERT_EQ(good.status, 200) << good.body;

@@ -35,6 +35,7 @@ TEST(MissionAddress, AMissionIsForOneRobotAGroupOrSeveral) {
     EXPECT_THAT(why(wrong), HasSubstr("is no robot")) << wrong;
   }
   EXPECT_THAT(why("a,b,a"), HasSubstr("'a' is there twice"));
+  EXPECT_THAT(why("cart-1,@cart"), HasSubstr("'cart-1' is one of '@cart'"));
   std::string many = "r0";
   for (int i = 1; i < 17; ++i) many += ",r" + std::to_string(i);
   EXPECT_THAT(why(many), HasSubstr("16 robots at most"));
