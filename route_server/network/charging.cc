@@ -52,9 +52,9 @@ void Charging::Hear(const exchange::Message& message) {
   }
 }
 
-const Charging::Dock* Charging::DockAt(const network::Place& place) const {
+const Charging::Dock* Charging::DockAt(const network::Place& place, double within_m) const {
   const auto holds = [&](const network::Place& each) {
-    return each.route == place.route && std::abs(each.along_m - place.along_m) <= kAtDock_m;
+    return each.route == place.route && std::abs(each.along_m - place.along_m) <= within_m;
   };
   const auto found = std::find_if(docks_.begin(), docks_.end(), [&](const Dock& dock) {
     return std::any_of(dock.places.begin(), dock.places.end(), holds);
@@ -86,7 +86,11 @@ RobotSeen Charging::SeenOf(const AgentId& agent, const Robot& robot) {
   const mission::Record* last = missions_.LastEnded(agent);
   if (last == nullptr || !SendsToCharge(*last)) return seen;
   const Dock* dock = last->last.state == mission::State::kArrived ? DockOf(*last) : nullptr;
-  if (dock != nullptr && robot.moved_after != last->mission.id) seen.dock = dock->name;
+  const auto* stand = network_.StandOf(agent);
+  const bool is_there = stand == nullptr || DockAt(stand->place, kBesideDock_m) == dock;
+  if (dock != nullptr && is_there && robot.moved_after != last->mission.id) {
+    seen.dock = dock->name;
+  }
   seen.may_go_on = robot.gone_on == last->mission.id;
   return seen;
 }

@@ -24,6 +24,8 @@ class Charging {
   static constexpr std::chrono::seconds kLookEvery{1};
   // A robot within so many metres of a dock is at it.
   static constexpr double kAtDock_m = 0.5;
+  // One that has arrived there may stand so far beside it.
+  static constexpr double kBesideDock_m = 2.0;
 
   // Sends missions in the name of `server`. Both registries must outlive this.
   Charging(AgentId server, MissionRegistry& missions, NetworkRegistry& network)
@@ -50,7 +52,7 @@ class Charging {
   };
 
   [[nodiscard]] RobotSeen SeenOf(const AgentId& agent, const Robot& robot);
-  [[nodiscard]] const Dock* DockAt(const network::Place& place) const;
+  [[nodiscard]] const Dock* DockAt(const network::Place& place, double within_m = kAtDock_m) const;
   [[nodiscard]] const Dock* DockOf(const mission::Record& record) const;
   [[nodiscard]] const mission::Record* WaitingToCharge(const AgentId& agent) const;
   [[nodiscard]] bool IsLost(const AgentId& agent);

@@ -164,12 +164,13 @@ TEST_F(ChargingTest, ARobotChargesAfterItsMissionAndBeforeItsQueue) {
   (void)Pass();
   EXPECT_THAT(Listed(),
               Contains("charging robot1 goes to dock1 to charge, its battery is at 18 %"));
-  Does("robot1", 12.1, 17);
+  Does("robot1", 12.7, 17);  // a little beside it
   const std::string charges =
       "charges at dock1: its battery is at 17 %, and it goes on at 90 %, or when it is told to "
       "resume";
   EXPECT_THAT(Pass(), IsEmpty());
-  EXPECT_THAT(Listed(), Contains("charging robot1 " + charges));
+  EXPECT_THAT(Listed(), ElementsAre("name dock1 hall@12 dock, taken by robot1",
+                                    "charging robot1 " + charges));
   EXPECT_EQ(WaitsFor("robot1"), "it " + charges) << "what its queue waits for";
   IsAt("robot1", {}, 89);
   EXPECT_THAT(Pass(), IsEmpty());
