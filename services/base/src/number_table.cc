@@ -41,7 +41,8 @@ std::optional<std::vector<std::size_t>> PlacesOf(const std::vector<std::string>&
 // A file that is no table may have lines of any length, which a message must not repeat.
 std::string Clipped(const std::string& text) {
   constexpr std::size_t kMostShown = 200;
-  return text.size() <= kMostShown ? text : text.substr(0, kMostShown) + "...";
+  if (text.size() <= kMostShown) return text;
+  return fmt::format("{}...", std::string_view(text).substr(0, kMostShown));
 }
 
 }  // namespace

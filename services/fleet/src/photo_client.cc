@@ -10,6 +10,7 @@
 
 #include "services/base/csv_line.h"
 #include "services/base/file_name.h"
+#include "services/base/hex.h"
 #include "services/base/local_time.h"
 #include "services/base/time.h"
 #include "services/fleet/src/ask_all.h"
@@ -131,7 +132,7 @@ std::string PhotosCsv(std::span<const KnownPhoto> photos) {
                         CsvText(photo.robot.value()), CsvText(photo.mission), CsvText(photo.route),
                         photo.revision, CsvText(photo.place), photo.spot_m, photo.along_m,
                         photo.sure, photo.backwards, photo.width_px, photo.height_px, photo.bytes,
-                        route::ToHex(photo.digest), photo.id);
+                        ToHex(photo.digest), photo.id);
   }
   return text;
 }
@@ -177,7 +178,7 @@ Json PhotoJson(const KnownPhoto& known) {
           {"width_px", photo.width_px},
           {"height_px", photo.height_px},
           {"bytes", photo.bytes},
-          {"sha256", route::ToHex(photo.digest)},
+          {"sha256", ToHex(photo.digest)},
           {"server", known.server.value()}};
 }
 

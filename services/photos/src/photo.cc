@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "services/base/hex.h"
 #include "services/base/number.h"
 #include "services/base/text.h"
 #include "services/route/bounds.h"
@@ -65,7 +66,7 @@ std::string ToText(const Photo& photo) {
                      photo.spot_m, photo.place.empty() ? kNone : std::string_view(photo.place),
                      photo.sure ? kSure : kUnsure, photo.backwards ? kBackwards : kAhead,
                      photo.taken_unix_ms, photo.width_px, photo.height_px, photo.bytes,
-                     route::ToHex(photo.digest));
+                     ToHex(photo.digest));
 }
 
 Result<Photo> ParsePhoto(std::string_view words) {
