@@ -23,7 +23,7 @@ struct KnownPhoto {
   photos::Photo photo{};
 };
 
-// Reads a server's lines. Those that are no photos, from a later server, are left out.
+// Reads a server's lines. Lines of a later server that are no photos are left out.
 [[nodiscard]] std::vector<KnownPhoto> PhotosIn(const AgentId& server,
                                                const std::vector<std::string>& lines);
 

@@ -16,8 +16,8 @@
 namespace trailcast::photos {
 
 // Photos on a disk: ID.jpg is the picture and ID.photo what is known of it. The folder has a
-// bounded size, and the photos that it has had for longest make room for others. What Add has
-// returned outlasts a loss of power. It may be used from any thread.
+// bounded size, and the photos that it has had for longest make room for others. A photo
+// that Add has kept outlasts a loss of power. It may be used from any thread.
 class PhotoFolder {
  public:
   static constexpr std::size_t kMostPhotos = 100'000;

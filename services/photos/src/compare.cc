@@ -28,14 +28,14 @@ constexpr double kLeastScale = 0.6;
 constexpr double kMostScale = 1.7;
 // Changes are sought in pictures that are reduced so often again.
 constexpr int kCoarser = 2;
-// What is near moves against what is far when the camera is beside its earlier place, by up to this
-// in the coarser picture, which is searched in steps.
+// A camera beside its earlier place has near things move against far ones, by up to this in the
+// coarser picture, which is searched in steps.
 constexpr int kShift_px = 12;
 constexpr int kShiftStep_px = 2;
 constexpr int kWindow_px = 9;
 constexpr double kLeastContrast = 20.0;
 constexpr double kSureContrast = 50.0;  // is marked whatever the others are
-// Of all differences this share is taken for what parallax and light leave, and what is marked
+// This share of all differences is taken for what parallax and light leave, and what is marked
 // exceeds it by that factor.
 constexpr double kUsual = 0.8;
 constexpr double kBeyondUsual = 2.5;

@@ -120,7 +120,7 @@ TEST(Compare, RefusesInWordsAStripHoweverLongItIs) {
               HasSubstr("a strip, of 1x60000 pixels"));
 }
 
-// What is large is no part of what is usual.
+// A large change is no part of what is usual.
 TEST(Compare, MarksAChangeOfAFifthOfThePicture) {
   const PaintedWall wall(1);
   GrayImage now = wall.Photograph(Now());
