@@ -37,6 +37,13 @@ struct CarriedOff {
   motion::Pose2 to;
 };
 
+// A place in the world where a robot's battery charges, from empty to full in so many minutes.
+struct Charger {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double minutes = 0.0;
+};
+
 struct SimulatedRun {
   SimulatedPlace place;
   std::string camera = "webcam";  // a built-in camera's name, or a .toml file
@@ -52,7 +59,8 @@ struct SimulatedRun {
   // The file for the frames' true poses, for whoever judges the run: CSV `t_s,x_m,y_m,heading_rad`
   // in the world's frame. It may be empty.
   std::filesystem::path truth{};
-  double battery_minutes = 0.0;      // how long a full one lasts; with 0 it reports none
+  double battery_minutes = 0.0;  // how long a full one lasts; with 0 it reports none
+  std::optional<Charger> charger{};
   std::vector<RoughGround> rough{};  // bumps in addition to the place's ground
   std::optional<CarriedOff> carried{};
 };

@@ -202,6 +202,36 @@ Result<CarriedOff> ParseCarriedOff(const std::string& text) {
   return CarriedOff{*after_m, {(*to)[0], (*to)[1], Radians((*to)[2])}};
 }
 
+// Parses "1.5,1.5@10": place, and minutes to charge an empty battery.
+Result<Charger> ParseCharger(const std::string& text) {
+  const std::size_t at = text.find('@');
+  const auto place = ParseNumbers<2>(text.substr(0, at));
+  const auto minutes = at == std::string::npos
+                           ? std::nullopt
+                           : ParseNumberWithin(std::string_view(text).substr(at + 1), 0.1, 1e5);
+  if (!place || !minutes) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "'{}' is no charger: expected X,Y@MINUTES, where in the world it is, and how many "
+                "minutes it takes to charge an empty battery, as 1.5,1.5@10",
+                text);
+  }
+  return Charger{(*place)[0], (*place)[1], *minutes};
+}
+
+CLI::Option* AddCharger(CLI::App& command, std::optional<Charger>& charger) {
+  const auto wrong = [](const std::string& text) {
+    const auto read = ParseCharger(text);
+    return read ? std::string() : read.error().message;
+  };
+  return command
+      .add_option_function<std::string>(
+          "--sim-charger",
+          [&charger](const std::string& text) { charger = ParseCharger(text).value(); },
+          "Its battery charges within half a metre of this place in the world, from empty to full "
+          "in so many of its minutes")
+      ->check(CLI::Validator(wrong, "X,Y@MINUTES"));
+}
+
 CLI::Option* AddCarriedOff(CLI::App& command, std::optional<CarriedOff>& carried) {
   const auto wrong = [](const std::string& text) {
     const auto read = ParseCarriedOff(text);
@@ -304,10 +334,12 @@ CLI::Option* AddSimulatedOptions(CLI::App& command, DeviceOptions& options, bool
   }
   AddRoughPatches(command, simulated.rough)->needs(world)->group(simulation);
   AddCarriedOff(command, simulated.carried)->needs(world)->group(simulation);
-  add("--sim-battery", simulated.battery_minutes,
-      "How many of its minutes a full battery lasts; default: it does not tell of any")
-      ->default_str("")
-      ->check(CLI::Range(0.1, 100'000.0));
+  auto* battery =
+      add("--sim-battery", simulated.battery_minutes,
+          "How many of its minutes a full battery lasts; default: it does not tell of any")
+          ->default_str("")
+          ->check(CLI::Range(0.1, 100'000.0));
+  AddCharger(command, simulated.charger)->needs(battery)->group(simulation);
   add("--sim-truth", options.simulated.truth, "Writes the true poses here as it goes, for a judge");
   return world;
 }

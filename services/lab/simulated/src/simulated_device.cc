@@ -26,6 +26,7 @@ using std::chrono::steady_clock;
 
 // The height of a small robot's scanner above the ground.
 constexpr double kScanner_m = 0.2;
+constexpr double kAtCharger_m = 0.5;
 
 }  // namespace
 
@@ -43,6 +44,8 @@ struct SimulatedDevice::State {
   BodyImu imu;
   double battery_s = 0.0;  // how long it lasts; with 0 it reports none
   std::atomic<double> charge = 1.0;
+  std::optional<Charger> charger;
+  double charged_at_s = 0.0;          // when `charge` was so
   bool begun = false;                 // there was a frame
   std::optional<CarriedOff> carried;  // still to come
   double driven_m = 0.0;
@@ -51,6 +54,7 @@ struct SimulatedDevice::State {
   std::ofstream truth;  // the file of true poses, if there is one
 
   void AwaitNext();
+  void Drain(double now_s, const motion::Pose2& pose);
   [[nodiscard]] Observation Note(sim::Observation seen);
   void CarryOff(const motion::Pose2& from);
   [[nodiscard]] motion::Pose2 Pose() { return sim::Judge(*robot).true_pose(); }
@@ -87,6 +91,7 @@ Result<std::unique_ptr<SimulatedDevice>> SimulatedDevice::Open(const SimulatedRu
         std::chrono::duration<double>(1.0 / run.rate_hz));
   }
   state->battery_s = 60.0 * run.battery_minutes;
+  state->charger = run.charger;
   state->carried = run.carried;
   state->camera = fmt::format("{} {}x{}", camera->name, camera->width, camera->height);
   state->world = place->world;
@@ -157,9 +162,19 @@ void SimulatedDevice::State::CarryOff(const motion::Pose2& from) {
   carried.reset();
 }
 
+void SimulatedDevice::State::Drain(double now_s, const motion::Pose2& pose) {
+  if (battery_s <= 0.0) return;
+  const double passed_s = now_s - std::exchange(charged_at_s, now_s);
+  const bool charges =
+      charger &&
+      (motion::Position(pose) - Eigen::Vector2d(charger->x_m, charger->y_m)).norm() <= kAtCharger_m;
+  const double gained = charges ? passed_s / (60.0 * charger->minutes) : -passed_s / battery_s;
+  charge = std::clamp(charge + gained, 0.0, 1.0);
+}
+
 Observation SimulatedDevice::State::Note(sim::Observation seen) {
-  if (battery_s > 0.0) charge = std::max(0.0, 1.0 - Seconds(seen.stamp) / battery_s);
   const motion::Pose2 pose = Pose();
+  Drain(Seconds(seen.stamp), pose);
   // Somebody who reads the file meanwhile gets whole lines.
   if (truth.is_open()) {
     truth << fmt::format("{:.4f},{:.4f},{:.4f},{:.5f}\n", Seconds(seen.stamp), pose.x_m, pose.y_m,

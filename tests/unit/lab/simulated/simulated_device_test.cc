@@ -90,6 +90,30 @@ TEST_F(SimulatedDeviceTest, SomebodyCarriesItOffOnceAndItsWheelsDoNotFeelIt) {
   EXPECT_NEAR(at_m.back().y(), 6.5 + last.x_m - 0.3, 0.1) << "it drives on from there";
 }
 
+TEST_F(SimulatedDeviceTest, ItsBatteryFallsAndChargesAtTheChargerAlone) {
+  run_.battery_minutes = 0.1;
+  run_.charger = Charger{2.5, 1.5, 0.05};
+  const auto opened = SimulatedDevice::Open(run_);
+  ASSERT_TRUE(opened) << opened.error().message;
+  SimulatedDevice& device = **opened;
+  std::vector<int> told;
+  const auto look = [&](double speed_mps, int frames) {
+    for (int i = 0; i < frames; ++i) {
+      ASSERT_TRUE(device.Next());
+      ASSERT_TRUE(device.Drive({speed_mps, 0.0}));
+    }
+    told.push_back(*device.battery_percent());
+  };
+  look(0.0, 60);
+  look(0.5, 60);
+  look(0.5, 30);
+  look(0.0, 120);
+  EXPECT_NEAR(told[0], 67, 2) << "after 2 s of 6";
+  EXPECT_LT(told[1], told[0]);
+  EXPECT_GT(told[3], told[2]) << "1.5 m on, it is there";
+  EXPECT_EQ(told[3], 100);
+}
+
 TEST(SimulatedDevice, InRealTimeItsTimePassesNoFasterThanOurs) {
   SimulatedRun run;
   run.place.world = "indoor";
