@@ -27,6 +27,12 @@ const Kept::Sent* SentTo(const Kept& kept, const AgentId& agent) {
   return found == kept.sent.end() ? nullptr : &*found;
 }
 
+Result<void> CheckThatItComes(const schedule::Schedule& schedule, std::int64_t now_unix_ms) {
+  if (NextDue(schedule, now_unix_ms)) return {};
+  return Fail(ErrorCode::kInvalidArgument, "schedule {}: {} is past, it is {} now", schedule.name,
+              WhenText(schedule), schedule::TextIn(schedule.zone, now_unix_ms));
+}
+
 std::string Became(const mission::Report& report) {
   return fmt::format("{}{}{}", mission::ToString(report.state), report.detail.empty() ? "" : ": ",
                      report.detail);
@@ -97,6 +103,8 @@ Result<Lines> ScheduleRegistry::Carry(const std::string& words, const AgentId& c
     return Fail(ErrorCode::kNotFound,
                 "no schedule is called '{}' here: 'trailcast schedule list' shows what there is",
                 name);
+  } else if (edit->kind == Kind::kChange) {
+    done = Replace(known->second, std::move(edit->schedule), by, now_unix_ms);
   } else if (edit->kind == Kind::kRemove) {
     done = store_.ForgetSchedule(name);
     if (done) entries_.erase(known);
@@ -105,7 +113,7 @@ Result<Lines> ScheduleRegistry::Carry(const std::string& words, const AgentId& c
         edit->kind == Kind::kPause ? Pause(known->second, by) : Resume(known->second, now_unix_ms);
   }
   if (!done) return tl::unexpected(done.error());
-  static constexpr const char* kDone[] = {"adds", "removes", "pauses", "resumes"};
+  static constexpr const char* kDone[] = {"adds", "changes", "removes", "pauses", "resumes"};
   notes_.push_back(
       fmt::format("'{}' {} schedule {}", by, kDone[static_cast<std::size_t>(edit->kind)], name));
   const auto now_is = entries_.find(name);
@@ -116,9 +124,10 @@ Result<void> ScheduleRegistry::Add(schedule::Schedule schedule, const std::strin
                                    std::int64_t now_unix_ms) {
   if (const auto known = entries_.find(schedule.name); known != entries_.end()) {
     if (known->second.schedule == schedule) return {};
-    return Fail(ErrorCode::kConflict,
-                "there is a schedule {} already, {}: remove it first, or take another name",
-                schedule.name, WhenText(known->second.schedule));
+    return Fail(
+        ErrorCode::kConflict,
+        "there is a schedule {} already, {}: change that, remove it first, or take another name",
+        schedule.name, WhenText(known->second.schedule));
   }
   if (entries_.size() >= kMostSchedules) {
     return Fail(ErrorCode::kUnavailable, "there are {} schedules already: remove some",
@@ -127,13 +136,24 @@ Result<void> ScheduleRegistry::Add(schedule::Schedule schedule, const std::strin
   Entry entry;
   entry.kept = {
       .name = schedule.name, .words = ToText(schedule), .by = by, .looked_unix_ms = now_unix_ms};
-  if (!NextDue(schedule, now_unix_ms)) {
-    return Fail(ErrorCode::kInvalidArgument, "schedule {}: {} is past, it is {} now", schedule.name,
-                WhenText(schedule), schedule::TextIn(schedule.zone, now_unix_ms));
-  }
+  if (auto comes = CheckThatItComes(schedule, now_unix_ms); !comes) return comes;
   entry.schedule = std::move(schedule);
   if (auto kept = Keep(entry, entry.kept); !kept) return kept;
   entries_.emplace(entry.schedule.name, std::move(entry));
+  return {};
+}
+
+Result<void> ScheduleRegistry::Replace(Entry& entry, schedule::Schedule schedule,
+                                       const std::string& by, std::int64_t now_unix_ms) {
+  if (entry.schedule == schedule) return {};
+  if (auto comes = CheckThatItComes(schedule, now_unix_ms); !comes) return comes;
+  Kept kept = entry.kept;
+  kept.words = ToText(schedule);
+  kept.by = by;
+  kept.looked_unix_ms = now_unix_ms;
+  if (auto stored = store_.Put(kept); !stored) return stored;
+  entry = {.schedule = std::move(schedule), .kept = std::move(kept)};
+  entry.next_unix_ms = NextDue(entry.schedule, now_unix_ms);
   return {};
 }
 

@@ -89,6 +89,9 @@ class ScheduleRegistry {
                                                        std::int64_t now_unix_ms);
   [[nodiscard]] Result<void> Add(schedule::Schedule schedule, const std::string& by,
                                  std::int64_t now_unix_ms);
+  // The missions that it sent stay known, and times that have passed are not missed.
+  [[nodiscard]] Result<void> Replace(Entry& entry, schedule::Schedule schedule,
+                                     const std::string& by, std::int64_t now_unix_ms);
   [[nodiscard]] Result<void> Pause(Entry& entry, const std::string& by);
   [[nodiscard]] Result<void> Resume(Entry& entry, std::int64_t now_unix_ms);
   [[nodiscard]] Result<void> Keep(Entry& entry, store::MissionStore::Schedule kept);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -32,6 +34,24 @@ struct KnownSchedules {
 // added, the first. Fails with kNotFound if there is no such schedule, and with kConflict if
 // another one has the name.
 [[nodiscard]] Result<AgentId> ServerFor(const KnownSchedules& known, const schedule::Edit& edit);
+
+// This is a time at which a schedule is due.
+struct Firing {
+  std::int64_t unix_ms = 0;
+  std::string text{};  // in its own time zone
+  std::string schedule{};
+};
+inline constexpr std::size_t kMostFirings = 1000;
+inline constexpr int kCalendarDays = 28;
+// Returns when schedules that are not paused are due next, the first first, in as many days, and at
+// most kMostFirings.
+[[nodiscard]] std::vector<Firing> CalendarOf(const std::vector<KnownSchedule>& schedules,
+                                             std::int64_t now_unix_ms, int days);
+[[nodiscard]] std::string CalendarText(const std::vector<Firing>& firings);
+[[nodiscard]] nlohmann::ordered_json CalendarJson(const std::vector<Firing>& firings);
+// Returns a schedule that nobody keeps yet, and when it would be due.
+[[nodiscard]] nlohmann::ordered_json PreviewJson(const schedule::Schedule& schedule,
+                                                 std::int64_t now_unix_ms);
 
 // Returns a table for people, and an array of objects for programs.
 [[nodiscard]] std::string SchedulesText(const std::vector<KnownSchedule>& schedules);

@@ -43,12 +43,12 @@ inline constexpr std::string_view kQuestion = "schedules";
 
 // An operator's change, in the words of exchange::NetworkEdit. It is for one server, because each
 // keeps its own schedules, and others leave it alone:
-//   schedule SERVER add WORDS | remove NAME | pause NAME | resume NAME
+//   schedule SERVER add WORDS | change WORDS | remove NAME | pause NAME | resume NAME
 struct Edit {
-  enum class Kind { kAdd, kRemove, kPause, kResume };
+  enum class Kind { kAdd, kChange, kRemove, kPause, kResume };
   std::string server{};
   Kind kind = Kind::kAdd;
-  Schedule schedule{};  // only its name, unless it is added
+  Schedule schedule{};  // only its name, unless it is added or changed
 };
 [[nodiscard]] std::string ToText(const Edit& edit);
 [[nodiscard]] bool IsEdit(std::string_view words);

@@ -97,6 +97,13 @@ struct Schedule {
                                                   std::int64_t after_unix_ms,
                                                   std::int64_t until_unix_ms);
 
+// Returns the first times after a moment, until another, inclusive.
+[[nodiscard]] std::vector<std::int64_t> Upcoming(const Schedule& schedule,
+                                                 std::int64_t after_unix_ms,
+                                                 std::int64_t until_unix_ms, std::size_t most);
+[[nodiscard]] std::string ClockText(int minutes);  // "08:30" of minutes after midnight
+[[nodiscard]] std::string DayText(int day);        // "mon" of 0
+
 // Fails with kInvalidArgument if the database has no such time zone.
 [[nodiscard]] Result<void> CheckZone(const std::string& zone);
 [[nodiscard]] Result<void> CheckDate(const Date& date);

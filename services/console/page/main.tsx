@@ -156,7 +156,7 @@ function Page() {
         {page === 'cameras' && <Later show={({ Cameras }) => <Cameras robots={robots} settled={settled} onStop={onStop} />} />}
         {page === 'network' && <Later show={({ NetworkPage }) => <NetworkPage robots={robots} live={fleet?.routes ?? []} />} />}
         {page === 'routes' && <Later show={({ Routes }) => <Routes open={open} now_ms={now_ms - now_ms % kStep_ms} />} />}
-        {page === 'schedules' && <Later show={({ Schedules }) => <Schedules />} />}
+        {page === 'schedules' && <Later show={({ Schedules }) => <Schedules robots={robots.map(({ name }) => name)} />} />}
         {page === 'history' && <Later show={({ History }) => <History open={open} live={fleet?.missions ?? []} now_ms={now_ms} />} />}
         {page === 'users' && <Later show={({ Users }) => <Users />} />}
       </main>

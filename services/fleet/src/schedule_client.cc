@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -75,6 +76,26 @@ Json MomentJson(const std::string& zone, const std::optional<std::int64_t>& unix
   return {{"unix_ms", *unix_ms}, {"text", schedule::TextIn(zone, *unix_ms)}};
 }
 
+Json WhenJson(const schedule::Schedule& schedule) {
+  Json at = Json::array();
+  for (const int minutes : schedule.at_min) at.push_back(schedule::ClockText(minutes));
+  Json days = Json::array();
+  for (const int day : schedule.days) days.push_back(schedule::DayText(day));
+  const bool is_whole_day = schedule.from_min == 0 && schedule.until_min == schedule::kMinutesADay;
+  const bool has_period = schedule.every_min > 0 && !is_whole_day;
+  const auto clock_or_null = [&](int minutes) {
+    return has_period ? Json(schedule::ClockText(minutes)) : Json(nullptr);
+  };
+  return {{"at", std::move(at)},
+          {"every_min", schedule.every_min > 0 ? Json(schedule.every_min) : Json(nullptr)},
+          {"from", clock_or_null(schedule.from_min)},
+          {"until", clock_or_null(schedule.until_min)},
+          {"days", std::move(days)},
+          {"once", schedule.once ? Json(fmt::format("{:04}-{:02}-{:02}", schedule.once->year,
+                                                    schedule.once->month, schedule.once->day))
+                                 : Json(nullptr)}};
+}
+
 Json ScheduleJson(const KnownSchedule& known) {
   const schedule::Listed& listed = known.listed;
   const schedule::Schedule& schedule = listed.schedule;
@@ -91,6 +112,7 @@ Json ScheduleJson(const KnownSchedule& known) {
           {"server", known.server.value()},
           {"robots", schedule.robots},
           {"when", WhenText(schedule)},
+          {"times", WhenJson(schedule)},
           {"zone", schedule.zone},
           {"orders", schedule.orders},
           {"battery_percent",
@@ -165,6 +187,53 @@ Result<AgentId> ServerFor(const KnownSchedules& known, const schedule::Edit& edi
   return Fail(
       ErrorCode::kNotFound, "no schedule is called '{}': {}", name,
       names.empty() ? "there are none" : fmt::format("there are {}", fmt::join(names, ", ")));
+}
+
+std::vector<Firing> CalendarOf(const std::vector<KnownSchedule>& schedules,
+                               std::int64_t now_unix_ms, int days) {
+  constexpr std::int64_t kDay_ms = 86'400'000;
+  std::vector<Firing> firings;
+  for (const KnownSchedule& known : schedules) {
+    const schedule::Schedule& schedule = known.listed.schedule;
+    if (!known.listed.paused_by.empty()) continue;
+    for (const std::int64_t unix_ms :
+         Upcoming(schedule, now_unix_ms, now_unix_ms + days * kDay_ms, kMostFirings)) {
+      firings.push_back({unix_ms, schedule::TextIn(schedule.zone, unix_ms), schedule.name});
+    }
+  }
+  std::sort(firings.begin(), firings.end(), [](const Firing& one, const Firing& other) {
+    return std::tie(one.unix_ms, one.schedule) < std::tie(other.unix_ms, other.schedule);
+  });
+  firings.resize(std::min(firings.size(), kMostFirings));
+  return firings;
+}
+
+std::string CalendarText(const std::vector<Firing>& firings) {
+  if (firings.empty()) return "nothing is due in that time\n";
+  std::string text;
+  for (const Firing& each : firings) text += fmt::format("{}  {}\n", each.text, each.schedule);
+  return text;
+}
+
+Json CalendarJson(const std::vector<Firing>& firings) {
+  Json all = Json::array();
+  for (const Firing& each : firings) {
+    all.push_back({{"unix_ms", each.unix_ms}, {"text", each.text}, {"schedule", each.schedule}});
+  }
+  return all;
+}
+
+Json PreviewJson(const schedule::Schedule& schedule, std::int64_t now_unix_ms) {
+  constexpr std::size_t kMostShown = 10;
+  constexpr std::int64_t kYear_ms = 366 * 86'400'000LL;
+  std::vector<Firing> firings;
+  for (const std::int64_t unix_ms :
+       Upcoming(schedule, now_unix_ms, now_unix_ms + kYear_ms, kMostShown)) {
+    firings.push_back({unix_ms, schedule::TextIn(schedule.zone, unix_ms), schedule.name});
+  }
+  return {{"when", WhenText(schedule)},
+          {"words", ToText(schedule)},
+          {"firings", CalendarJson(firings)}};
 }
 
 std::string SchedulesText(const std::vector<KnownSchedule>& schedules) {

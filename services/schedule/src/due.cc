@@ -132,6 +132,17 @@ std::optional<std::int64_t> NextDue(const Schedule& schedule, std::int64_t after
   return next;
 }
 
+std::vector<std::int64_t> Upcoming(const Schedule& schedule, std::int64_t after_unix_ms,
+                                   std::int64_t until_unix_ms, std::size_t most) {
+  std::vector<std::int64_t> upcoming;
+  auto next = NextDue(schedule, after_unix_ms);
+  while (next && *next <= until_unix_ms && upcoming.size() < most) {
+    upcoming.push_back(*next);
+    next = NextDue(schedule, *next);
+  }
+  return upcoming;
+}
+
 std::optional<std::int64_t> LastDue(const Schedule& schedule, std::int64_t after_unix_ms,
                                     std::int64_t until_unix_ms) {
   const auto zone = Load(schedule.zone);

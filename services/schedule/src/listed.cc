@@ -13,7 +13,9 @@ namespace trailcast::schedule {
 namespace {
 
 constexpr std::string_view kEdit = "schedule ";
-constexpr std::array<std::string_view, 4> kKinds{"add", "remove", "pause", "resume"};
+constexpr std::array<std::string_view, 5> kKinds{"add", "change", "remove", "pause", "resume"};
+
+bool HasWords(Edit::Kind kind) { return kind == Edit::Kind::kAdd || kind == Edit::Kind::kChange; }
 
 // Takes the first word off a text.
 std::string TakeWord(std::string_view& text) {
@@ -85,9 +87,8 @@ std::vector<Listed> ParseLines(const std::vector<std::string>& lines) {
 }
 
 std::string ToText(const Edit& edit) {
-  const bool adds = edit.kind == Edit::Kind::kAdd;
   return fmt::format("{}{} {} {}", kEdit, edit.server, kKinds[static_cast<std::size_t>(edit.kind)],
-                     adds ? ToText(edit.schedule) : edit.schedule.name);
+                     HasWords(edit.kind) ? ToText(edit.schedule) : edit.schedule.name);
 }
 
 bool IsEdit(std::string_view words) { return words.starts_with(kEdit); }
@@ -105,11 +106,12 @@ Result<Edit> ParseScheduleEdit(std::string_view words) {
   const auto* known = std::find(kKinds.begin(), kKinds.end(), kind);
   if (known == kKinds.end()) {
     return Fail(ErrorCode::kInvalidArgument,
-                "'{}': expected 'schedule SERVER' and then 'add', 'remove', 'pause' or 'resume'",
+                "'{}': expected 'schedule SERVER' and then 'add', 'change', 'remove', 'pause' or "
+                "'resume'",
                 kind);
   }
   edit.kind = static_cast<Edit::Kind>(known - kKinds.begin());
-  if (edit.kind == Edit::Kind::kAdd) {
+  if (HasWords(edit.kind)) {
     auto schedule = ParseSchedule(words);
     if (!schedule) return tl::unexpected(schedule.error());
     edit.schedule = *std::move(schedule);

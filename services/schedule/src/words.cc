@@ -104,8 +104,6 @@ std::string DaysText(const std::set<int>& days) {
   return fmt::format("{}", fmt::join(parts, ","));
 }
 
-std::string TimeText(int minutes) { return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60); }
-
 Result<void> CheckOrders(const std::string& orders) {
   if (orders.starts_with(kGoto)) {
     const std::string place = orders.substr(kGoto.size());
@@ -290,6 +288,12 @@ class Parser {
 
 }  // namespace
 
+std::string ClockText(int minutes) {
+  return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
+}
+
+std::string DayText(int day) { return std::string(kDays[static_cast<std::size_t>(day)]); }
+
 bool IsPattern(std::string_view word) { return word.ends_with('*'); }
 
 bool IsMeant(std::string_view word, std::string_view robot) {
@@ -307,16 +311,16 @@ std::string WhenText(const Schedule& schedule) {
   if (schedule.once) {
     const auto& [year, month, day] = *schedule.once;
     text = fmt::format("once {:04}-{:02}-{:02} {}", year, month, day,
-                       TimeText(schedule.at_min.front()));
+                       ClockText(schedule.at_min.front()));
   } else if (schedule.every_min > 0) {
     text = fmt::format("every {}", schedule.every_min);
     if (schedule.until_min != kMinutesADay) {
-      text += fmt::format(" from {} until {}", TimeText(schedule.from_min),
-                          TimeText(schedule.until_min));
+      text += fmt::format(" from {} until {}", ClockText(schedule.from_min),
+                          ClockText(schedule.until_min));
     }
   } else {
     std::vector<std::string> times;
-    for (const int minutes : schedule.at_min) times.push_back(TimeText(minutes));
+    for (const int minutes : schedule.at_min) times.push_back(ClockText(minutes));
     text = fmt::format("at {}", fmt::join(times, ","));
   }
   if (!schedule.days.empty()) text += " on " + DaysText(schedule.days);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/base/time.h"
+#include "services/base/unix_time.h"
 #include "services/exchange/bounds.h"
 #include "services/fleet/known_robot.h"
 #include "services/fleet/network_client.h"
@@ -38,6 +39,7 @@ struct ScheduleOptions {
   std::string once;
   std::string zone;
   int battery = 0;
+  int days = fleet::kCalendarDays;
   bool unless_closed = false;
   bool if_arrived = false;
   std::string missed = "skip";
@@ -57,6 +59,8 @@ constexpr const char* kScheduleExamples =
     "      --from 08:00 --until 18:00 --zone Europe/Berlin --if-arrived\n"
     "  trailcast schedule add audit goto office@8 --to robot1 --once 2026-12-24T08:30 --zone UTC\n"
     "  trailcast schedule list\n"
+    "  trailcast schedule calendar             # when all are due next\n"
+    "  trailcast schedule change night-round follow hall --to robot1 --at 23:00 --zone UTC\n"
     "  trailcast schedule pause night-round    # and resume, remove\n"
     "A server keeps schedules beside its missions, over restarts. Each has its own --help.";
 constexpr const char* kAddExamples =
@@ -124,7 +128,7 @@ int Show(const std::vector<fleet::KnownSchedule>& schedules, bool json) {
 
 int ChangeIt(const CLI::App& app, const program::CommonOptions& common,
              const ScheduleOptions& options, Edit edit) {
-  const bool adds = edit.kind == Edit::Kind::kAdd;
+  const bool adds = edit.kind == Edit::Kind::kAdd || edit.kind == Edit::Kind::kChange;
   auto peer = fleet::JoinAsOperator(common, TopicsOf(adds));
   if (!peer) return program::Complain(app, peer.error());
   if (adds && !options.unheard) {
@@ -149,10 +153,11 @@ int ChangeIt(const CLI::App& app, const program::CommonOptions& common,
   return program::kExitOk;
 }
 
-int Add(const CLI::App& app, const program::CommonOptions& common, const ScheduleOptions& options) {
+int AddOrChange(const CLI::App& app, const program::CommonOptions& common,
+                const ScheduleOptions& options, Edit::Kind kind) {
   auto read = schedule::ParseSchedule(WordsOf(options));
   if (!read) return ComplainOfUsage(app, read.error());
-  Edit edit{.kind = Edit::Kind::kAdd, .schedule = *std::move(read)};
+  Edit edit{.kind = kind, .schedule = *std::move(read)};
   // The longest name of a server is not longer than this.
   edit.server = std::string(64, 's');
   if (schedule::ToText(edit).size() > exchange::kMaxLineBytes) {
@@ -173,6 +178,20 @@ int List(const CLI::App& app, const program::CommonOptions& common,
       fleet::AskForSchedules(*peer->exchange, peer->self, ToMilliseconds(options.timeout_s));
   if (!known) return program::Complain(app, known.error());
   return Show(known->schedules, options.json);
+}
+
+int ShowCalendar(const CLI::App& app, const program::CommonOptions& common,
+                 const ScheduleOptions& options) {
+  auto peer = fleet::JoinAsOperator(common, exchange::NetworkTopics());
+  if (!peer) return program::Complain(app, peer.error());
+  const auto known =
+      fleet::AskForSchedules(*peer->exchange, peer->self, ToMilliseconds(options.timeout_s));
+  if (!known) return program::Complain(app, known.error());
+  const auto firings = fleet::CalendarOf(known->schedules, NowUnixMs(), options.days);
+  const std::string text =
+      options.json ? program::Indented(fleet::CalendarJson(firings)) : fleet::CalendarText(firings);
+  std::fputs(text.c_str(), stdout);
+  return program::kExitOk;
 }
 
 void AddAnswerOptions(CLI::App& app, ScheduleOptions& options) {
@@ -234,22 +253,35 @@ Command AddScheduleCommand(CLI::App& parent, const program::CommonOptions& commo
   app->footer(kScheduleExamples);
   app->require_subcommand(1);
   auto options = std::make_shared<ScheduleOptions>();
-  CLI::App* add = app->add_subcommand("add", "Make a schedule");
-  add->footer(kAddExamples);
-  add->add_option("NAME", options->name, "What it is called")
-      ->required()
-      ->check(program::NameValidator());
-  add->add_option("ORDERS", options->orders, "What robots are to do")->required();
-  auto* to = add->add_option("--to", options->robots,
-                             "Who is sent: robot1, robot1,robot2 or, for all that the server hears "
-                             "then whose names begin so, 'cart-*'");
-  to->required()->delimiter(',')->allow_extra_args(false)->take_all();
-  AddTimes(*add, *options);
-  AddConditions(*add, *options);
-  AddAnswerOptions(*add, *options);
+  std::vector<std::pair<CLI::App*, Edit::Kind>> worded;
+  const auto add_worded = [&](const char* name, const char* help, Edit::Kind kind) {
+    CLI::App* sub = app->add_subcommand(name, help);
+    sub->footer(kAddExamples);
+    sub->add_option("NAME", options->name, "What it is called")
+        ->required()
+        ->check(program::NameValidator());
+    sub->add_option("ORDERS", options->orders, "What robots are to do")->required();
+    auto* to = sub->add_option("--to", options->robots,
+                               "Who is sent: robot1, robot1,robot2 or, for all that the server "
+                               "hears then whose names begin so, 'cart-*'");
+    to->required()->delimiter(',')->allow_extra_args(false)->take_all();
+    AddTimes(*sub, *options);
+    AddConditions(*sub, *options);
+    AddAnswerOptions(*sub, *options);
+    worded.emplace_back(sub, kind);
+  };
+  add_worded("add", "Make a schedule", Edit::Kind::kAdd);
+  add_worded("change", "Give a schedule all that follows in place of what it has; it stays paused",
+             Edit::Kind::kChange);
   CLI::App* list =
       app->add_subcommand("list", "List schedules: when next, what became of the last");
   AddAnswerOptions(*list, *options);
+  CLI::App* calendar =
+      app->add_subcommand("calendar", "List when schedules are due next, the first first");
+  calendar->add_option("--days", options->days, "In so many days")
+      ->check(CLI::Range(1, 366))
+      ->capture_default_str();
+  AddAnswerOptions(*calendar, *options);
   std::vector<std::pair<CLI::App*, Edit::Kind>> named;
   const auto add_named = [&](const char* name, const char* help, Edit::Kind kind) {
     CLI::App* sub = app->add_subcommand(name, help);
@@ -263,8 +295,11 @@ Command AddScheduleCommand(CLI::App& parent, const program::CommonOptions& commo
   add_named("pause", "Send nobody until it is told to resume", Edit::Kind::kPause);
   add_named("resume", "Have it go on, also after a mission that did not arrive (--if-arrived)",
             Edit::Kind::kResume);
-  return {app, [add, list, named, options, &common] {
-            if (add->parsed()) return Add(*add, common, *options);
+  return {app, [list, calendar, worded, named, options, &common] {
+            for (const auto& [sub, kind] : worded) {
+              if (sub->parsed()) return AddOrChange(*sub, common, *options, kind);
+            }
+            if (calendar->parsed()) return ShowCalendar(*calendar, common, *options);
             if (list->parsed()) return List(*list, common, *options);
             for (const auto& [sub, kind] : named) {
               Edit edit{.kind = kind};

@@ -103,6 +103,63 @@ TEST_F(SchedulesApiTest, AreAddedListedPausedResumedAndRemoved) {
   EXPECT_EQ(List().body["schedules"], json::array());
 }
 
+TEST_F(SchedulesApiTest, AreChangedAndStayPaused) {
+  Serve();
+  ASSERT_EQ(Add("round to robot1 at 08:30 zone UTC do follow hall").status, 200);
+  ASSERT_EQ(Tell("round", "pause").status, 200);
+  const auto change = [&](const std::string& name, const std::string& words) {
+    return ReplyOf(
+        Client().Put("/api/schedules/" + name, json{{"words", words}}.dump(), "application/json"));
+  };
+  const Replied changed =
+      change("round",
+             "round to robot2 every 20 from 08:00 until 18:00 on sat,sun zone Asia/Tokyo "
+             "do follow yard");
+  ASSERT_EQ(changed.status, 200) << changed.body;
+  const json round = List().body["schedules"][0];
+  EXPECT_EQ(round["robots"], json({"robot2"}));
+  EXPECT_EQ(round["paused_by"], "desk");
+  EXPECT_EQ(round["times"], json::parse(R"({"at": [], "every_min": 20, "from": "08:00",
+      "until": "18:00", "days": ["sat", "sun"], "once": null})"));
+  EXPECT_EQ(change("round", "other to robot2 at 08:30 zone UTC do follow hall").status, 400);
+  EXPECT_EQ(change("other", "other to robot2 at 08:30 zone UTC do follow hall").status, 409);
+  EXPECT_EQ(change("round", "round to robot2 once 2020-01-01 08:30 zone UTC do follow hall").status,
+            409);
+}
+
+TEST_F(SchedulesApiTest, TheCalendarHasWhatIsDueNextOfAll) {
+  Serve();
+  ASSERT_EQ(Add("late to robot1 at 20:00 on mon zone UTC do follow hall").status, 200);
+  ASSERT_EQ(Add("early to robot1 at 08:30 on mon,tue zone UTC do follow hall").status, 200);
+  ASSERT_EQ(Add("never to robot1 at 08:30 zone UTC do follow hall").status, 200);
+  ASSERT_EQ(Tell("never", "pause").status, 200);
+  const Replied calendar = ReplyOf(Client().Get("/api/schedules/calendar"));
+  ASSERT_EQ(calendar.status, 200) << calendar.body;
+  const json& firings = calendar.body["firings"];
+  ASSERT_EQ(firings.size(), 12U) << "in four weeks";
+  for (std::size_t i = 0; i < firings.size(); ++i) {
+    EXPECT_NE(firings[i]["schedule"], "never");
+    if (i > 0) EXPECT_LT(firings[i - 1]["unix_ms"], firings[i]["unix_ms"]);
+  }
+}
+
+TEST_F(SchedulesApiTest, APreviewSaysWhenItWouldBeDueAndKeepsNothing) {
+  Serve();
+  const auto preview = [&](const std::string& words) {
+    return ReplyOf(
+        Client().Post("/api/schedules/preview", json{{"words", words}}.dump(), "application/json"));
+  };
+  const Replied good = preview("round to robot1 at 08:30 zone UTC valid 600 do follow hall");
+  ASSERT_EQ(good.status, 200) << good.body;
+  EXPECT_EQ(good.body["words"], "round to robot1 at 08:30 zone UTC do follow hall");
+  EXPECT_EQ(good.body["firings"].size(), 10U);
+  EXPECT_THAT(good.body["firings"][0]["text"].get<std::string>(), HasSubstr(" 08:30 UTC"));
+  const Replied bad = preview("round to robot1 at 08:30 zone Mars do follow hall");
+  EXPECT_EQ(bad.status, 400);
+  EXPECT_THAT(bad.error(), HasSubstr("Mars"));
+  EXPECT_EQ(List().body["schedules"], json::array());
+}
+
 TEST_F(SchedulesApiTest, WhatCannotBeIsRefusedInWords) {
   Serve();
   const Replied wrong = Add("round to robot1 at 25:00 zone UTC do follow hall");

@@ -1,21 +1,9 @@
 import { useCallback, useEffect, useState } from 'react';
 import { change, get } from '../api';
 import { useMay } from '../me';
-
-type Moment = { unix_ms: number; text: string };
-type Schedule = {
-  name: string;
-  server: string;
-  robots: string[];
-  when: string;
-  orders: string;
-  by: string;
-  paused_by: string | null;
-  next: Moment | null;
-  last: Moment | null;
-  outcome: string | null;  // why nobody was sent the last time
-  sent: { robot: string; mission: string | null; outcome: string }[];
-};
+import { Calendar } from './calendar';
+import { ScheduleForm } from './form';
+import type { Schedule } from './schedule';
 
 const kAgain_ms = 5000;
 
@@ -46,8 +34,8 @@ function Outcome({ schedule: { last, outcome, sent } }: { schedule: Schedule }) 
   );
 }
 
-function Row({ schedule, mayOperate, onChange }: {
-  schedule: Schedule; mayOperate: boolean; onChange: (order: Order) => void;
+function Row({ schedule, mayOperate, onChange, onEdit }: {
+  schedule: Schedule; mayOperate: boolean; onChange: (order: Order) => void; onEdit: () => void;
 }) {
   const [asks, setAsks] = useState(false);
   const { name, paused_by, next } = schedule;
@@ -69,6 +57,7 @@ function Row({ schedule, mayOperate, onChange }: {
             </div>
           ) : (
             <div>
+              <button onClick={onEdit} aria-label={`Edit ${name} …`}>Edit …</button>{' '}
               <button onClick={() => onChange(order)} aria-label={`${order === 'pause' ? 'Pause' : 'Resume'} ${name}`}>
                 {order === 'pause' ? 'Pause' : 'Resume'}
               </button>{' '}
@@ -81,10 +70,12 @@ function Row({ schedule, mayOperate, onChange }: {
   );
 }
 
-// Missions that are sent at times. A schedule is made by `trailcast schedule add`, or over the API.
-export function Schedules() {
+// Missions that are sent at times.
+export function Schedules({ robots }: { robots: string[] }) {
   const [schedules, setSchedules] = useState<Schedule[] | string | null>(null);
   const [why, setWhy] = useState('');
+  const [edits, setEdits] = useState<Schedule | 'new' | null>(null);
+  const [changes, setChanges] = useState(0);
   const mayOperate = useMay('operate');
   const look = useCallback(async () => {
     const reply = await get<{ schedules: Schedule[] }>('/api/schedules', {});
@@ -98,17 +89,27 @@ export function Schedules() {
   const onChange = async (name: string, order: Order) => {
     setWhy(await tell(name, order));
     await look();
+    setChanges((count) => count + 1);
   };
+  const onDone = async () => {
+    setEdits(null);
+    await look();
+    setChanges((count) => count + 1);
+  };
+  const all = Array.isArray(schedules) ? schedules : [];
   return (
-    <section aria-label="Schedules">
+    <section className="schedules" aria-label="Schedules">
       <h2>Schedules</h2>
       <p role="status" className="note">{why !== '' && `⚠ ${why}`}</p>
       {schedules === null && <p className="note">Loading schedules …</p>}
       {typeof schedules === 'string' && <p className="note" role="alert">⚠ Schedules: {schedules}</p>}
-      {Array.isArray(schedules) && schedules.length === 0 && (
-        <p className="note">No robot is sent at set times. <code>trailcast schedule add --help</code> tells how one is.</p>
+      {Array.isArray(schedules) && schedules.length === 0 && <p className="note">No robot is sent at set times.</p>}
+      {mayOperate && edits === null && <p><button onClick={() => setEdits('new')}>New schedule …</button></p>}
+      {mayOperate && edits !== null && (
+        <ScheduleForm key={edits === 'new' ? '' : edits.name} schedule={edits === 'new' ? null : edits} robots={robots}
+          onDone={() => void onDone()} onLeave={() => setEdits(null)} />
       )}
-      {Array.isArray(schedules) && schedules.length > 0 && (
+      {all.length > 0 && (
         <table>
           <thead>
             <tr>
@@ -116,12 +117,14 @@ export function Schedules() {
             </tr>
           </thead>
           <tbody>
-            {schedules.map((each) => (
-              <Row key={each.name} schedule={each} mayOperate={mayOperate} onChange={(order) => void onChange(each.name, order)} />
+            {all.map((each) => (
+              <Row key={each.name} schedule={each} mayOperate={mayOperate} onEdit={() => setEdits(each)}
+                onChange={(order) => void onChange(each.name, order)} />
             ))}
           </tbody>
         </table>
       )}
+      {all.length > 0 && <Calendar changes={changes} />}
     </section>
   );
 }

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "services/base/unix_time.h"
 #include "services/console/json.h"
 #include "services/console/src/api/answers.h"
 #include "services/exchange/bounds.h"
@@ -82,6 +83,18 @@ void ServeSchedules(http::Server& server, Desk& desk, const Access& access) {
     ChangeSchedule(desk, access.WhoIs(request).name,
                    {.kind = Edit::Kind::kAdd, .schedule = *std::move(read)}, response);
   });
+  server.Get("/api/schedules/calendar", [&desk](const Request& /*request*/, Response& response) {
+    const auto known = AskForSchedules(desk);
+    if (!known) return Refuse(response, known.error());
+    const auto firings = fleet::CalendarOf(known->schedules, NowUnixMs(), fleet::kCalendarDays);
+    Answer(response, 200,
+           OneLine({{"days", fleet::kCalendarDays}, {"firings", fleet::CalendarJson(firings)}}));
+  });
+  server.Post("/api/schedules/preview", [](const Request& request, Response& response) {
+    const auto read = ReadSchedule(request.body);
+    if (!read) return Refuse(response, read.error());
+    Answer(response, 200, OneLine(fleet::PreviewJson(*read, NowUnixMs())));
+  });
   const auto change_as = [&desk, &access](Edit::Kind kind) {
     return [&desk, &access, kind](const Request& request, Response& response) {
       Edit edit{.kind = kind};
@@ -90,6 +103,17 @@ void ServeSchedules(http::Server& server, Desk& desk, const Access& access) {
     };
   };
   const std::string named = "/api/schedules/([A-Za-z0-9_.-]{1,64})";
+  server.Put(named, [&desk, &access](const Request& request, Response& response) {
+    auto read = ReadSchedule(request.body);
+    if (!read) return Refuse(response, read.error());
+    if (read->name != request.matches[1].str()) {
+      return Refuse(response, 400,
+                    fmt::format("the schedule in 'words' is called '{}', and not '{}'", read->name,
+                                request.matches[1].str()));
+    }
+    ChangeSchedule(desk, access.WhoIs(request).name,
+                   {.kind = Edit::Kind::kChange, .schedule = *std::move(read)}, response);
+  });
   server.Delete(named, change_as(Edit::Kind::kRemove));
   server.Post(named + "/pause", change_as(Edit::Kind::kPause));
   server.Post(named + "/resume", change_as(Edit::Kind::kResume));

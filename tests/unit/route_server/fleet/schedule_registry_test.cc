@@ -307,6 +307,29 @@ TEST_F(ScheduleRegistryTest, PausedSendsNobodyAndMissesNothing) {
   EXPECT_THAT(Taken(), ElementsAre("robot1 round-20261130T0730Z"));
 }
 
+TEST_F(ScheduleRegistryTest, ChangedSendsAtItsNewTimesAndMissesNothing) {
+  Add("round to robot1 at 07:01 zone UTC do follow hall");
+  Pass(minutes(2));
+  EXPECT_THAT(Taken(), ElementsAre("robot1 round-20261130T0701Z"));
+  Ends("robot1", "round-20261130T0701Z", State::kArrived);
+  EXPECT_EQ(Tell("change round to robot1 at 06:50,07:04 zone UTC missed once do follow yard").error,
+            "");
+  EXPECT_EQ(Only().schedule.orders, "follow yard");
+  EXPECT_THAT(Outcomes(), ElementsAre("robot1 arrived")) << "what it has sent stays known";
+  Restart();
+  Pass(minutes(1));
+  EXPECT_THAT(Taken(), IsEmpty()) << "06:50 has passed, and was none of its times";
+  Pass(minutes(1));
+  EXPECT_THAT(Taken(), ElementsAre("robot1 round-20261130T0704Z"));
+  ASSERT_EQ(Tell("pause round").error, "");
+  EXPECT_EQ(Tell("change round to robot2 at 08:00 zone UTC do follow hall").error, "");
+  EXPECT_EQ(Only().paused_by, "desk");
+  EXPECT_THAT(Tell("change round to robot2 once 2020-01-01 08:00 zone UTC do follow hall").error,
+              HasSubstr("is past"));
+  EXPECT_THAT(Tell("change other to robot2 at 08:00 zone UTC do follow hall").error,
+              HasSubstr("no schedule is called 'other'"));
+}
+
 TEST_F(ScheduleRegistryTest, RemovedIsGoneAfterARestartToo) {
   Add("round to robot1 every 1 zone UTC do follow hall");
   EXPECT_EQ(Tell("remove round").error, "");
