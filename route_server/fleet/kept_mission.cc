@@ -22,6 +22,21 @@ bool SendsHome(const mission::Record& record) {
          record.mission.orders == OrdersWithoutWay(mission::kHomeWord);
 }
 
+bool SendsToCharge(const mission::Record& record) {
+  return record.mission.id.starts_with(kChargePrefix) &&
+         mission::GoingIn(record.mission.orders).has_value();
+}
+
+bool EndsHere(const mission::Record& record, mission::State state) {
+  return state == mission::State::kArrived ||
+         (state == mission::State::kCancelled && SendsToCharge(record));
+}
+
+std::string NotArrived(const mission::Report& end) {
+  return fmt::format("mission {} did not arrive ({}): resume the robot to go on, or cancel",
+                     end.mission, mission::ToString(end.state));
+}
+
 std::uint32_t EndedStates() {
   std::uint32_t states = 0;
   for (std::uint8_t i = 0; i < mission::kStates; ++i) {

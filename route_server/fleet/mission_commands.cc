@@ -8,6 +8,7 @@
 #include "route_server/fleet/mission_registry.h"
 #include "services/base/process_name.h"
 #include "services/base/unix_time.h"
+#include "services/mission/address.h"
 #include "services/mission/orders.h"
 
 namespace trailcast::server {
@@ -15,6 +16,16 @@ namespace {
 
 // The mission of a robot that is sent home.
 constexpr std::uint32_t kHomeWithin_s = 600;
+
+// Such a command holds every queue, also those that are empty, until robots are told to resume.
+bool SendsAllHome(const exchange::NowCommand& command) {
+  return command.order == exchange::NowOrder::kHome && command.whom == exchange::NowWhom::kAll;
+}
+
+std::string SentHomeText(const exchange::NowCommand& command, std::int64_t now_unix_ms) {
+  return fmt::format("sent home by {} {}, until it is told to resume",
+                     WithoutProcess(command.client.value()), MomentText(now_unix_ms));
+}
 
 bool MeansMission(const exchange::NowCommand& command, const mission::Mission& mission) {
   switch (command.whom) {
@@ -33,6 +44,7 @@ bool MeansMission(const exchange::NowCommand& command, const mission::Mission& m
 // A cancellation voids the missions that were sent before it, even if the robot has not heard of
 // them yet.
 void MissionRegistry::On(const exchange::NowCommand& command, Time now, std::int64_t now_unix_ms) {
+  if (mission::IsGroup(command.name)) AnswerForGroup(command);
   const NowKey key{command.client, command.number};
   if (std::exchange(commands_.Touch(key), command)) return;
   std::vector<AgentId> answered;
@@ -55,6 +67,7 @@ void MissionRegistry::On(const exchange::NowCommand& command, Time now, std::int
 }
 
 bool MissionRegistry::IsMeant(const exchange::NowCommand& command, const AgentId& agent) const {
+  if (command.whom == exchange::NowWhom::kAll) return true;
   if (command.whom == exchange::NowWhom::kRobot) return command.name == agent.value();
   const Current* current = current_.Find(agent);
   if (current != nullptr && MeansMission(command, current->record.mission)) return true;
@@ -65,31 +78,36 @@ bool MissionRegistry::IsMeant(const exchange::NowCommand& command, const AgentId
 }
 
 void MissionRegistry::HoldOrLetGo(const exchange::NowCommand& command, std::int64_t now_unix_ms) {
-  const bool lets_go = command.order == exchange::NowOrder::kResume;
-  if (!lets_go && command.order != exchange::NowOrder::kStop) return;
-  for (const auto& [agent, queue] : unanswered_) {
+  std::set<AgentId> agents;
+  for (const auto& [agent, queue] : unanswered_) agents.insert(agent);
+  for (const auto& [agent, hold] : holds_) agents.insert(agent);
+  for (const AgentId& agent : agents) {
     if (!IsMeant(command, agent)) continue;
-    if (lets_go) {
-      LetGo(agent, now_unix_ms);
-    } else {
+    if (command.order == exchange::NowOrder::kResume) LetGo(agent, now_unix_ms);
+    if (!unanswered_.contains(agent)) continue;
+    if (command.order == exchange::NowOrder::kStop) {
       Hold(agent,
            fmt::format("stopped by {} {}, until it is released and told to resume",
                        WithoutProcess(command.client.value()), MomentText(now_unix_ms)),
            now_unix_ms);
+    } else if (SendsAllHome(command)) {
+      Hold(agent, SentHomeText(command, now_unix_ms), now_unix_ms, true);
     }
   }
 }
 
 std::string MissionRegistry::HeldBy(const AgentId& agent) const {
   const auto hold = holds_.find(agent);
-  return hold == holds_.end() ? "" : hold->second;
+  return hold == holds_.end() ? "" : hold->second.why;
 }
 
-void MissionRegistry::Hold(const AgentId& agent, const std::string& why, std::int64_t now_unix_ms) {
-  const auto stored = store_->Put(store::MissionStore::Hold{agent, why, now_unix_ms});
+void MissionRegistry::Hold(const AgentId& agent, const std::string& why, std::int64_t now_unix_ms,
+                           bool stays) {
+  store::MissionStore::Hold& hold = holds_[agent];
+  hold = {agent, why, now_unix_ms, stays || (hold.stays && !why.empty())};
+  const auto stored = store_->Put(hold);
   NoteStored(stored);
   if (!stored) Warn(stored.error());
-  holds_[agent] = why;
   changed_.insert(agent);
 }
 
@@ -112,10 +130,7 @@ void MissionRegistry::HoldAfter(const mission::Report& end, std::int64_t now_uni
   const bool is_news =
       known && !known->missions.empty() && !mission::HasEnded(known->missions.front().last.state);
   if (!others_wait || !is_news) return;
-  Hold(end.agent,
-       fmt::format("mission {} did not arrive ({}): resume the robot to go on, or cancel",
-                   end.mission, mission::ToString(end.state)),
-       now_unix_ms);
+  Hold(end.agent, NotArrived(end), now_unix_ms);
 }
 
 void MissionRegistry::On(const exchange::NowAnswer& answer, Time now, std::int64_t now_unix_ms) {
@@ -138,15 +153,18 @@ void MissionRegistry::SendHome(const exchange::NowCommand& command, const AgentI
                                  .client = command.client,
                                  .orders = OrdersWithoutWay(mission::kHomeWord),
                                  .valid_for_s = kHomeWithin_s};
+  const bool others_wait = unanswered_.contains(agent);
+  if (!TakeFirst(mission, now, now_unix_ms)) return;
+  if (!others_wait && !SendsAllHome(command)) return;
+  Hold(agent, SentHomeText(command, now_unix_ms), now_unix_ms, SendsAllHome(command));
+}
+
+bool MissionRegistry::TakeFirst(const mission::Mission& mission, Time now,
+                                std::int64_t now_unix_ms) {
   Take({&mission, 1}, now, now_unix_ms);
-  const auto found = unanswered_.find(agent);
-  if (found == unanswered_.end() || found->second.back().mission.id != mission.id) return;
-  Queue& queue = found->second;
-  std::rotate(queue.begin(), queue.end() - 1, queue.end());
-  if (queue.size() < 2) return;
-  Hold(agent,
-       fmt::format("sent home by {} {}, until it is told to resume",
-                   WithoutProcess(command.client.value()), MomentText(now_unix_ms)),
-       now_unix_ms);
+  const auto found = unanswered_.find(mission.agent);
+  if (found == unanswered_.end() || found->second.back().mission.id != mission.id) return false;
+  std::rotate(found->second.begin(), found->second.end() - 1, found->second.end());
+  return true;
 }
 }  // namespace trailcast::server

@@ -9,6 +9,7 @@
 
 #include "route_server/fleet/kept_mission.h"
 #include "route_server/fleet/mission_registry.h"
+#include "services/mission/address.h"
 #include "services/mission/orders.h"
 
 namespace trailcast::server {
@@ -31,12 +32,13 @@ Result<void> MissionRegistry::LoadQueues() {
   std::map<AgentId, std::int64_t> let_go_unix_ms;
   for (const store::MissionStore::Hold& hold : *holds) {
     changed_.insert(hold.agent);
-    holds_.emplace(hold.agent, hold.why);
+    holds_.emplace(hold.agent, hold);
     let_go_unix_ms.emplace(hold.agent, hold.unix_ms);
   }
   constexpr auto kNotYet = std::numeric_limits<std::int64_t>::max();
   for (auto& [agent, queue] : unanswered_) {
     changed_.insert(agent);
+    std::stable_partition(queue.begin(), queue.end(), SendsToCharge);
     std::stable_partition(queue.begin(), queue.end(), SendsHome);
     for (Waiting& record : queue) record.since_unix_ms = kNotYet;
     if (unended_.Find(agent) != nullptr) continue;
@@ -52,19 +54,23 @@ Result<void> MissionRegistry::LoadQueues() {
 }
 
 std::string MissionRegistry::WhyNotNow(const AgentId& agent) const {
+  if (mission::IsGroup(agent.value())) return WhyNobodyIsFree(agent);
   const Heard* heard = heard_.Find(agent);
   if (heard != nullptr && heard->hold == exchange::AgentHold::kStopped) return heard->hold_text;
   const auto queue = unanswered_.find(agent);
   const bool goes_home = queue != unanswered_.end() && SendsHome(queue->second.front());
   if (const std::string held = HeldBy(agent); !held.empty() && !goes_home) return held;
-  if (const auto* unended = unended_.Find(agent)) {
-    const mission::Record* current = CurrentOf(agent);
-    return current == nullptr ? "it does mission " + unended->begin()->first
-                              : fmt::format("it does mission {}: {}", current->mission.id,
-                                            current->mission.orders);
-  }
+  if (IsAtWork(agent)) return AtWorkText(agent);
   if (heard == nullptr) return "it is not heard";
-  return heard->hold == exchange::AgentHold::kPaused ? heard->hold_text : "";
+  if (heard->hold == exchange::AgentHold::kPaused) return heard->hold_text;
+  return check_first_ && queue != unanswered_.end() ? check_first_(queue->second.front()) : "";
+}
+
+std::string MissionRegistry::AtWorkText(const AgentId& agent) const {
+  const mission::Record* current = CurrentOf(agent);
+  return current == nullptr
+             ? "it does mission " + unended_.Find(agent)->begin()->first
+             : fmt::format("it does mission {}: {}", current->mission.id, current->mission.orders);
 }
 
 mission::Report MissionRegistry::Waits(const Waiting& record, const Waiting* before) const {
@@ -84,7 +90,9 @@ void MissionRegistry::TellQueues() {
   for (const AgentId& agent : std::exchange(changed_, {})) {
     const auto queue = unanswered_.find(agent);
     if (queue == unanswered_.end()) {
-      if (holds_.erase(agent) == 0) continue;
+      const auto hold = holds_.find(agent);
+      if (hold == holds_.end() || hold->second.stays) continue;
+      holds_.erase(hold);
       if (const auto forgotten = store_->ForgetHold(agent); !forgotten) Warn(forgotten.error());
       continue;
     }
@@ -111,6 +119,32 @@ void MissionRegistry::NoteWaited(Waiting& record) {
   if (stored) record.mission.orders = orders;
 }
 
+Result<void> MissionRegistry::Direct(const mission::Record& waiting, const std::string& goal) {
+  const AgentId agent = waiting.mission.agent;
+  const std::string orders = OrdersWithoutWay(goal);
+  for (Waiting& each : unanswered_.at(agent)) {
+    if (each.mission.id != waiting.mission.id || each.mission.orders == orders) continue;
+    const auto stored = store_->Amend(agent, each.mission.id, orders);
+    NoteStored(stored);
+    if (!stored) return tl::unexpected(stored.error());
+    each.mission.orders = orders;
+    changed_.insert(agent);
+  }
+  return {};
+}
+
+void MissionRegistry::Withdraw(const mission::Record& waiting, const std::string& why,
+                               std::int64_t now_unix_ms) {
+  const mission::Mission mission = waiting.mission;
+  Drop(
+      mission::State::kExpired,
+      [&](const Waiting& each) {
+        const bool is_this = each.mission.agent == mission.agent && each.mission.id == mission.id;
+        return is_this ? std::optional(why) : std::nullopt;
+      },
+      now_unix_ms, false);
+}
+
 bool MissionRegistry::PlanAnew(const Waiting& record, std::int64_t now_unix_ms) {
   const auto going = mission::GoingIn(record.mission.orders);
   if (!going || record.mission.orders != OrdersWithoutWay(going->to)) return true;
@@ -131,7 +165,8 @@ bool MissionRegistry::PlanAnew(const Waiting& record, std::int64_t now_unix_ms) 
   return false;
 }
 
-void MissionRegistry::Drop(mission::State state, const Why& why, std::int64_t now_unix_ms) {
+void MissionRegistry::Drop(mission::State state, const Why& why, std::int64_t now_unix_ms,
+                           bool holds) {
   std::vector<mission::Report> reports;
   for (const auto& [agent, queue] : unanswered_) {
     bool others_follow = false;
@@ -143,7 +178,7 @@ void MissionRegistry::Drop(mission::State state, const Why& why, std::int64_t no
         others_follow = others_follow || !of_robot.empty();
       }
     }
-    if (others_follow) HoldAfter(of_robot.front(), now_unix_ms);
+    if (holds && others_follow) HoldAfter(of_robot.front(), now_unix_ms);
     std::move(of_robot.begin(), of_robot.end(), std::back_inserter(reports));
   }
   if (reports.empty()) return;
@@ -158,6 +193,7 @@ void MissionRegistry::Drop(mission::State state, const Why& why, std::int64_t no
       const auto reason = why(record);
       if (reason) {
         changed_.insert(agent);
+        if (EndsHere(record, state)) NoteEnded(agent, record.mission.id);
         notes_.push_back({fmt::format("{}: {}: {}", Describe(record.mission),
                                       mission::ToString(state), *reason)});
       }
@@ -172,7 +208,7 @@ void MissionRegistry::Drop(mission::State state, const Why& why, std::int64_t no
 // answer. A robot that is out of reach with a mission is given as long as any.
 void MissionRegistry::Expire(Time now, std::int64_t now_unix_ms) {
   for (auto& [agent, queue] : unanswered_) {
-    const bool is_heard = heard_.Find(agent) != nullptr;
+    const bool is_heard = IsHeard(agent);
     const bool at_work = unended_.Find(agent) != nullptr;
     const bool first_waits = !WhyNotNow(agent).empty();
     for (Waiting& record : queue) {
@@ -208,8 +244,10 @@ void MissionRegistry::HandOver(Time now, std::int64_t now_unix_ms) {
     if (WhyNotNow(agent).empty()) due.push_back(agent);
   }
   for (const AgentId& agent : due) {
-    const Waiting& first = unanswered_.at(agent).front();
-    if (!PlanAnew(first, now_unix_ms)) continue;
+    Waiting& first = unanswered_.at(agent).front();
+    // One that was handed over a moment ago may stand in its way.
+    if (!WhyNotNow(agent).empty() || !PlanAnew(first, now_unix_ms)) continue;
+    first.is_handed = true;
     Heard* heard = heard_.Find(agent);
     heard->tell_at = now + heard->pause;
     heard->pause = std::min(2 * heard->pause, kLate);

@@ -8,6 +8,7 @@
 #include "route_server/fleet/kept_mission.h"
 #include "services/base/text.h"
 #include "services/exchange/bounds.h"
+#include "services/mission/address.h"
 #include "services/mission/orders.h"
 
 namespace trailcast::server {
@@ -117,7 +118,15 @@ void MissionRegistry::Take(std::span<const mission::Mission> missions, Time now,
                            std::int64_t now_unix_ms) {
   std::vector<mission::Mission> readable;
   for (const mission::Mission& mission : missions) {
-    if (!Refuses(mission)) readable.push_back(mission);
+    if (Refuses(mission)) continue;
+    const auto addressed = mission::ParseAddress(mission.agent.value());
+    if (addressed && addressed->size() > 1) {
+      TakeForAll(mission, *addressed, now, now_unix_ms);
+    } else if (auto taken = AsTaken(mission)) {
+      readable.push_back(*std::move(taken));
+    } else {
+      Say(PutOff(mission, taken.error().message));
+    }
   }
   if (readable.empty()) return;
   std::vector<Result<mission::Record>> stored = store_->Add(readable, now_unix_ms);
@@ -150,6 +159,7 @@ void MissionRegistry::Keep(const mission::Mission& mission, mission::Record stor
     notes_.push_back({fmt::format("'{}' sends {}", mission.client.value(), Describe(mission))});
     known = queue.insert(known, Waiting(std::move(stored)));
     if (Heard* heard = heard_.Find(mission.agent)) heard->tell_at = {};
+    give_at_ = {};
   }
   known->is_asked = true;
   changed_.insert(mission.agent);
@@ -179,6 +189,10 @@ void MissionRegistry::On(const mission::Report& report, std::int64_t now_unix_ms
     heard->pause = kSoon;
   }
   NoteCurrent(report);
+  if (mission::HasEnded(report.state)) {
+    NoteEnded(report.agent, report.mission);
+    give_at_ = {};
+  }
   notes_.push_back({fmt::format("mission {} of '{}': {}{}{}", report.mission, report.agent.value(),
                                 mission::ToString(report.state), report.detail.empty() ? "" : ": ",
                                 PlainText(report.detail, 200))});
@@ -222,6 +236,52 @@ void MissionRegistry::NoteOther(const mission::Report& report) {
   unended->erase(report.mission);
   if (unended->empty()) unended_.Erase(report.agent);
   if (Heard* heard = heard_.Find(report.agent)) heard->tell_at = {};
+}
+
+void MissionRegistry::NoteEnded(const AgentId& agent, const std::string& id) {
+  auto stored = store_->Get(agent, id);
+  if (!stored) return Warn(stored.error());
+  if (*stored) ended_.Touch(agent) = **std::move(stored);
+}
+
+// Missions end in another order than that in which they were sent, but not long after others.
+const mission::Record* MissionRegistry::LastEnded(const AgentId& agent) {
+  constexpr std::uint32_t kLookedThrough = 64;
+  if (const auto* known = ended_.Find(agent)) return *known ? &**known : nullptr;
+  auto& last = ended_.Touch(agent);
+  auto found =
+      store_->Find({.agent = agent.value(), .states = EndedStates(), .page_size = kLookedThrough});
+  if (!found) {
+    Warn(found.error());
+    return nullptr;
+  }
+  for (mission::Record& record : found->missions) {
+    if (record.last.change == 0 && !EndsHere(record, record.last.state)) continue;
+    if (!last || last->changed_unix_ms < record.changed_unix_ms) last = std::move(record);
+  }
+  return last ? &*last : nullptr;
+}
+
+std::vector<const mission::Record*> MissionRegistry::QueueOf(const AgentId& agent) const {
+  std::vector<const mission::Record*> waiting;
+  const auto queue = unanswered_.find(agent);
+  if (queue == unanswered_.end()) return waiting;
+  for (const Waiting& each : queue->second) waiting.push_back(&each);
+  return waiting;
+}
+
+bool MissionRegistry::IsHanded(const AgentId& agent) const {
+  const auto queue = unanswered_.find(agent);
+  return queue != unanswered_.end() && queue->second.front().is_handed;
+}
+
+std::vector<const mission::Record*> MissionRegistry::HandedOver() const {
+  std::vector<const mission::Record*> handed;
+  for (const auto& [agent, current] : current_) handed.push_back(&current.record);
+  for (const auto& [agent, queue] : unanswered_) {
+    if (queue.front().is_handed) handed.push_back(&queue.front());
+  }
+  return handed;
 }
 
 const mission::Record* MissionRegistry::CurrentOf(const AgentId& agent) const {
@@ -278,6 +338,9 @@ Result<void> MissionRegistry::LookUp(const exchange::MissionRequest& request,
 std::vector<std::string> MissionRegistry::RobotsLike(const std::string& robot) const {
   if (met_.Find(AgentId(robot)) != nullptr) return {robot};
   std::vector<std::string> robots;
+  for (const auto& [agent, met] : met_) {
+    if (mission::IsGroup(robot) && mission::Means(robot, agent.value())) return {agent.value()};
+  }
   for (const auto& [agent, met] : met_) {
     if (robots.size() == exchange::kMaxRobotsTold) break;
     robots.push_back(agent.value());
@@ -343,6 +406,10 @@ std::vector<exchange::Message> MissionRegistry::Tick(Time now, std::int64_t now_
     Expire(now, now_unix_ms);
   }
   Agree(now);
+  if (now >= give_at_) {
+    give_at_ = now + kSoon;
+    GiveToGroups();
+  }
   HandOver(now, now_unix_ms);
   TellQueues();
   for (auto& [agent, current] : current_) {

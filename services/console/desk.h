@@ -73,7 +73,8 @@ class Desk {
   // Sends a mission, whose client it sets, and returns what is known of it first, as
   // fleet::SendMission does. Fails with kNotFound if neither this console nor a server has ever
   // heard of such a robot; `also_unheard` sends it all the same.
-  [[nodiscard]] Result<mission::Report> Send(mission::Mission mission, bool also_unheard = false);
+  [[nodiscard]] Result<std::vector<mission::Report>> Send(mission::Mission mission,
+                                                          bool also_unheard = false);
   // Returns all alerts that are kept, as openapi.yaml has them.
   [[nodiscard]] Result<nlohmann::ordered_json> AllAlerts();
   [[nodiscard]] bool keeps_alerts() const { return options_.keep_alerts != nullptr; }

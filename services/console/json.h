@@ -21,13 +21,15 @@ namespace trailcast::console {
 [[nodiscard]] std::string ReasonIfAny(const std::string& body);
 
 struct SendBody {
-  std::string orders;
-  std::string id;  // empty if it is to be drawn
+  std::string to{};
+  std::string orders{};
+  std::string id{};  // empty if it is to be drawn
   std::uint32_t valid_s = 600;
   bool goes_on = false;
   bool unheard = false;  // also to a robot that nobody has heard of
 };
-[[nodiscard]] Result<SendBody> ReadSend(const std::string& body);
+// The body of a mission for whom the address does not say has `to` (mission/address.h), too.
+[[nodiscard]] Result<SendBody> ReadSend(const std::string& body, bool has_to = false);
 
 // Reads how `route`, a name or id, is to be changed.
 [[nodiscard]] Result<route::RouteEdit> ReadRouteEdit(const std::string& route,

@@ -21,12 +21,12 @@ struct SendWatch {
   std::function<void(const mission::Report&)> news = [](const mission::Report&) {};
 };
 
-// Sends the mission repeatedly until the robot has answered or, while the robot is out of reach, a
-// server keeps it. Returns what is known of it then. Fails with kUnavailable if neither is heard,
-// or if servers put it off.
-[[nodiscard]] Result<mission::Report> SendMission(exchange::RouteExchange& exchange,
-                                                  const mission::Mission& mission,
-                                                  const SendWatch& watch);
+// Sends the mission repeatedly until its robots have answered or, while one is out of reach, a
+// server keeps it. Returns what is known of it then, of each robot or group that it is for. Fails
+// with kUnavailable if nobody is heard, or if servers put it off.
+[[nodiscard]] Result<std::vector<mission::Report>> SendMission(exchange::RouteExchange& exchange,
+                                                               const mission::Mission& mission,
+                                                               const SendWatch& watch);
 
 // Returns at most `limit` missions, the newest first. Fails with kUnavailable if no server answers,
 // or one that keeps no missions.

@@ -43,4 +43,31 @@ class Sending {
   std::optional<mission::Report> last_;
 };
 
+// This follows a mission that is sent to a robot, a group, or several of them (mission/address.h),
+// in the same way.
+class SendingToAll {
+ public:
+  explicit SendingToAll(mission::Mission mission);
+
+  [[nodiscard]] const mission::Mission& mission() const { return whole_.mission(); }
+  // Takes a message, and returns it if it was news of the mission.
+  std::optional<mission::Report> Hear(const exchange::Message& message);
+  // These are true if they are for each robot or group, or the mission was refused for all.
+  [[nodiscard]] bool Answered(std::chrono::milliseconds since,
+                              std::chrono::milliseconds timeout) const;
+  [[nodiscard]] bool Ended(std::chrono::milliseconds since) const;
+  [[nodiscard]] bool heard() const;
+  [[nodiscard]] std::chrono::milliseconds SayAgain() const;
+  // Returns a report for each of which one is known, or the one by which it is refused for all.
+  [[nodiscard]] Result<std::vector<mission::Report>> Outcome(
+      std::chrono::milliseconds timeout) const;
+
+ private:
+  template <typename Holds>
+  [[nodiscard]] bool ForAll(const Holds& holds) const;
+
+  Sending whole_;
+  std::vector<Sending> each_;
+};
+
 }  // namespace trailcast::fleet

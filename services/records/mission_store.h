@@ -37,6 +37,12 @@ class MissionStore {
   // that too many missions wait, in all or of that client.
   [[nodiscard]] std::vector<Result<mission::Record>> Add(std::span<const mission::Mission> missions,
                                                          std::int64_t now_unix_ms);
+  // Adds all of them or none.
+  [[nodiscard]] Result<std::vector<mission::Record>> AddAll(
+      std::span<const mission::Mission> missions, std::int64_t now_unix_ms);
+  // Gives a mission of a group to a robot. Fails with kConflict if the robot has one of that id.
+  [[nodiscard]] Result<void> Assign(const AgentId& group, const std::string& id,
+                                    const AgentId& robot);
   // Changes missions in one commit. Returns false for a report that is no news (Report::change) or
   // whose mission is not there.
   [[nodiscard]] Result<std::vector<bool>> Change(std::span<const mission::Report> reports,
@@ -54,6 +60,7 @@ class MissionStore {
     AgentId agent{};
     std::string why{};
     std::int64_t unix_ms = 0;  // when it was held or let go
+    bool stays = false;        // also while no mission waits
     bool operator==(const Hold&) const = default;
   };
   [[nodiscard]] Result<void> Put(const Hold& hold);

@@ -20,6 +20,7 @@ export type Order = 'pause' | 'resume' | 'cancel' | 'stop' | 'release' | 'end' |
 
 export type Robot = {
   name: string;
+  group: string;  // those that are numbered alike are one: "cart" of "cart-1"
   role: string;
   state: RobotState;
   detail: string;
@@ -266,6 +267,18 @@ export async function send(robot: string, orders: string): Promise<Answer> {
   }
 }
 
+// Sends one of a group ("@cart"), or several, which all get it or none.
+export async function sendTo(to: string, orders: string): Promise<Answer> {
+  try {
+    const { status, json } = await post('/api/missions', { to, orders });
+    if (json.error) return { ok: false, text: json.error };
+    const text = json.missions.map(({ robot, state, detail }: Mission) => `${robot}: ${state}${detail ? `: ${detail}` : ''}`).join('; ');
+    return { ok: status === 200, text };
+  } catch {
+    return unreachable;
+  }
+}
+
 // Sends a mission's orders again; to a place, by the best path from where the robot stands now.
 export async function sendAgain({ robot, orders }: Mission): Promise<Answer> {
   const [first, to] = orders.split(' ');
@@ -340,7 +353,7 @@ export type Proposal = Omit<Joint, 'used'> & { confidence: number };
 export type Stretch = { route: string; from_m: number; to_m: number | null; speed?: number; cost?: number };
 // How often robots came over it lately, and lost their path there.
 export type LostStretch = Stretch & { passed: number; lost: number; cost: number };
-export type NamedPlace = { name: string; place: Place; home: boolean; used: boolean };
+export type NamedPlace = { name: string; place: Place; home: boolean; dock: boolean; taken_by: string[]; used: boolean };
 
 // Routes that were asked for, with what is on them and between them; and of how many.
 export type NetworkPart = {
@@ -354,6 +367,8 @@ export type NetworkPart = {
     narrow?: { parts: Stretch[]; taken_by: string[] }[];  // not of an older server
     lost?: LostStretch[];  // likewise
     names: NamedPlace[];
+    charge: { below_percent: number; until_percent: number } | null;
+    charging: { robot: string; text: string }[];
   };
   elsewhere: { route: string; joints: number }[];
   matched: number;

@@ -11,6 +11,7 @@
 #include "services/fleet/known_robot.h"
 #include "services/fleet/sending.h"
 #include "services/fleet/telling.h"
+#include "services/mission/address.h"
 #include "services/program/json.h"
 
 namespace trailcast::console {
@@ -66,7 +67,7 @@ class TellErrand final : public ErrandFor<std::vector<fleet::RobotsWord>> {
   milliseconds timeout_;
 };
 
-class SendErrand final : public ErrandFor<mission::Report> {
+class SendErrand final : public ErrandFor<std::vector<mission::Report>> {
  public:
   SendErrand(mission::Mission mission, milliseconds timeout)
       : sending_(std::move(mission)), timeout_(timeout) {}
@@ -81,11 +82,11 @@ class SendErrand final : public ErrandFor<mission::Report> {
   }
 
  private:
-  [[nodiscard]] Result<mission::Report> Outcome() const override {
+  [[nodiscard]] Result<std::vector<mission::Report>> Outcome() const override {
     return sending_.Outcome(timeout_);
   }
 
-  fleet::Sending sending_;
+  fleet::SendingToAll sending_;
   milliseconds timeout_;
 };
 
@@ -227,9 +228,11 @@ std::optional<Error> Desk::Unknown(const AgentId& robot) {
   return *std::move(*unknown);
 }
 
-Result<mission::Report> Desk::Send(mission::Mission mission, bool also_unheard) {
-  if (!also_unheard) {
-    if (auto unknown = Unknown(mission.agent)) return tl::unexpected(*std::move(unknown));
+Result<std::vector<mission::Report>> Desk::Send(mission::Mission mission, bool also_unheard) {
+  const auto addressed = mission::ParseAddress(mission.agent.value());
+  if (!addressed) return tl::unexpected(addressed.error());
+  for (const std::string& each : also_unheard ? std::vector<std::string>{} : *addressed) {
+    if (auto unknown = Unknown(AgentId(each))) return tl::unexpected(*std::move(unknown));
   }
   mission.client = self_;
   return CarryOut(std::make_shared<SendErrand>(std::move(mission), options_.reply_within), false,

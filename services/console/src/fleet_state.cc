@@ -10,6 +10,7 @@
 #include "services/fleet/mission_client.h"
 #include "services/fleet/now_client.h"
 #include "services/fleet/routes/catalog_client.h"
+#include "services/mission/address.h"
 #include "services/mission/mission.h"
 #include "services/program/json.h"
 
@@ -105,6 +106,12 @@ void FleetState::On(const exchange::NowAnswer& answer) {
 }
 
 bool FleetState::Knows(const AgentId& robot) const {
+  if (mission::IsGroup(robot.value())) {
+    return std::any_of(agents_.begin(), agents_.end(), [&](const auto& each) {
+      return each.second.status.role == AgentRole::kFollower &&
+             mission::Means(robot.value(), each.first.value());
+    });
+  }
   return agents_.Find(robot) != nullptr ||
          std::any_of(missions_.begin(), missions_.end(), [&](const auto& each) {
            return each.first.first == robot && each.second.last.change > 0;
@@ -314,6 +321,7 @@ Json FleetState::RobotOf(const Agent& agent, const mission::Record* latest,
   const AgentStatus& status = agent.status;
   const auto [state, needs_person, mission, last] = StandingOf(agent, latest);
   Json robot{{"name", status.agent.value()},
+             {"group", mission::GroupOf(status.agent.value())},
              {"role", fleet::ToText(status.role)},
              {"state", fleet::ToText(state)},
              {"detail", status.detail},

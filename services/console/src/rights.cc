@@ -66,6 +66,7 @@ constexpr Row kRows[] = {
     {"POST", "/api/robots/*/end", Role::kOperate},
     {"POST", "/api/robots/*/forget", Role::kOperate},
     {"POST", "/api/robots/*/drive", Role::kOperate},
+    {"POST", "/api/missions", Role::kOperate},
     {"POST", "/api/robots/*/missions", Role::kOperate},
     {"POST", "/api/network/edits", Role::kOperate},
     {"POST", "/api/schedules", Role::kOperate},

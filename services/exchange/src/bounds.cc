@@ -4,6 +4,7 @@
 
 #include "services/base/text.h"
 #include "services/exchange/mirror.h"
+#include "services/mission/address.h"
 
 namespace trailcast::exchange {
 namespace {
@@ -37,6 +38,12 @@ Result<void> CheckIndices(const char* field, const std::vector<SegmentIndex>& in
     if (auto ok = CheckIndex(index); !ok) return ok;
   }
   return {};
+}
+
+// Missions are also for groups, and for several robots.
+Result<void> CheckAddress(const std::string& text) {
+  const auto addressed = mission::ParseAddress(text);
+  return addressed ? Result<void>() : tl::unexpected(addressed.error());
 }
 
 Result<void> CheckPiece(const SegmentPiece& piece) {
@@ -228,7 +235,7 @@ Result<void> Check(const NowCommand& message) {
   if (auto ok = CheckEnum("order", message.order, NowOrder::kHome); !ok) return ok;
   if (auto ok = CheckEnum("whom", message.whom, NowWhom::kAll); !ok) return ok;
   if (message.whom != NowWhom::kAll) {
-    if (auto ok = CheckName("name of whom it is for", message.name); !ok) return ok;
+    if (auto ok = CheckAddress(message.name); !ok) return ok;
   } else if (!message.name.empty()) {
     return Fail(ErrorCode::kInvalidArgument, "a command for all names '{}'", message.name);
   }
@@ -236,20 +243,20 @@ Result<void> Check(const NowCommand& message) {
 }
 
 Result<void> Check(const NowAnswer& message) {
-  if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
+  if (auto ok = CheckAddress(message.agent.value()); !ok) return ok;
   if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
   return CheckText("detail", message.detail, kMaxLineBytes);
 }
 
 Result<void> Check(const mission::Mission& message) {
-  if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
+  if (auto ok = CheckAddress(message.agent.value()); !ok) return ok;
   if (auto ok = CheckName("mission", message.id); !ok) return ok;
   if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
   return CheckText("orders", message.orders, kMaxLineBytes);
 }
 
 Result<void> Check(const mission::Report& message) {
-  if (auto ok = CheckName("agent", message.agent.value()); !ok) return ok;
+  if (auto ok = CheckAddress(message.agent.value()); !ok) return ok;
   if (auto ok = CheckName("mission", message.mission); !ok) return ok;
   // A robot takes a mission or refuses it; only servers put one off.
   const auto last = message.change == 0 ? mission::State::kPutOff : mission::State::kExpired;
@@ -263,7 +270,10 @@ Result<void> Check(const mission::Report& message) {
 Result<void> Check(const MissionRequest& message) {
   if (auto ok = CheckName("client", message.client.value()); !ok) return ok;
   const mission::Query& query = message.query;
-  for (const std::string* name : {&query.agent, &query.route, &query.id, &query.client}) {
+  if (!query.agent.empty()) {
+    if (auto ok = CheckAddress(query.agent); !ok) return ok;
+  }
+  for (const std::string* name : {&query.route, &query.id, &query.client}) {
     if (name->empty()) continue;
     if (auto ok = CheckName("mission query", *name); !ok) return ok;
   }

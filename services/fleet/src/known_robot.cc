@@ -9,10 +9,20 @@
 
 #include "services/base/similar_names.h"
 #include "services/fleet/mission_question.h"
+#include "services/mission/address.h"
 
 namespace trailcast::fleet {
 
 Error UnknownRobot(const std::string& name, std::vector<std::string> robots) {
+  if (mission::IsGroup(name)) {
+    std::transform(robots.begin(), robots.end(), robots.begin(),
+                   [](const std::string& robot) { return "@" + mission::GroupOf(robot); });
+    std::sort(robots.begin(), robots.end());
+    robots.erase(std::unique(robots.begin(), robots.end()), robots.end());
+    return {ErrorCode::kNotFound,
+            fmt::format("no robot of group '{}' is heard, nor has a server heard of one{}", name,
+                        DidYouMean(name, std::move(robots)))};
+  }
   return {
       ErrorCode::kNotFound,
       fmt::format("no robot '{}' is known: neither is one heard, nor has a server ever heard of "
@@ -22,7 +32,8 @@ Error UnknownRobot(const std::string& name, std::vector<std::string> robots) {
 
 bool HasHeardOf(const exchange::MissionReply& reply, const std::string& robot) {
   const auto& robots = reply.robots;
-  return std::find(robots.begin(), robots.end(), robot) != robots.end() ||
+  return std::any_of(robots.begin(), robots.end(),
+                     [&](const std::string& each) { return mission::Means(robot, each); }) ||
          std::any_of(reply.missions.begin(), reply.missions.end(),
                      [](const mission::Record& record) { return record.last.change > 0; });
 }
@@ -42,7 +53,7 @@ std::optional<Error> FindUnknown(exchange::RouteExchange& exchange, const AgentI
     for (const exchange::Message& message : exchange.Take(kTakeWait)) {
       const auto* status = std::get_if<exchange::AgentStatus>(&message);
       if (status != nullptr && status->role == exchange::AgentRole::kFollower) {
-        if (status->agent.value() == robot) return std::nullopt;
+        if (mission::Means(robot, status->agent.value())) return std::nullopt;
         robots.insert(status->agent.value());
       }
       const exchange::MissionReply* answer = question.AnswerIn(message);

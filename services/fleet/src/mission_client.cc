@@ -50,12 +50,13 @@ std::string WhomText(const mission::NowCommand& command) {
 
 }  // namespace
 
-Result<mission::Report> SendMission(exchange::RouteExchange& exchange,
-                                    const mission::Mission& mission, const SendWatch& watch) {
-  Sending sending(mission);
+Result<std::vector<mission::Report>> SendMission(exchange::RouteExchange& exchange,
+                                                 const mission::Mission& mission,
+                                                 const SendWatch& watch) {
+  SendingToAll sending(mission);
   const auto over = [&](milliseconds since) {
-    return watch.to_its_end && sending.last() ? sending.Ended(since)
-                                              : sending.Answered(since, watch.timeout);
+    return watch.to_its_end && sending.heard() ? sending.Ended(since)
+                                               : sending.Answered(since, watch.timeout);
   };
   const auto began = steady_clock::now();
   auto say_at = began;
@@ -70,7 +71,7 @@ Result<mission::Report> SendMission(exchange::RouteExchange& exchange,
       }
     }
     for (const exchange::Message& message : exchange.Take(kWait)) {
-      if (sending.Hear(message)) watch.news(*sending.last());
+      if (const auto news = sending.Hear(message)) watch.news(*news);
     }
   }
   return sending.Outcome(watch.timeout);

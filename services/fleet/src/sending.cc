@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "services/base/time.h"
+#include "services/mission/address.h"
 
 namespace trailcast::fleet {
 namespace {
@@ -24,15 +25,20 @@ constexpr milliseconds kAgainWatched{2000};
 
 bool Sending::Hear(const exchange::Message& message) {
   const auto* report = std::get_if<mission::Report>(&message);
-  if (report == nullptr || report->agent != mission_.agent || report->mission != mission_.id) {
-    return false;
-  }
+  if (report == nullptr || report->mission != mission_.id) return false;
+  // A group's mission is reported of the group, and then of the robot that has it.
+  const AgentId& awaited = last_ ? last_->agent : mission_.agent;
+  const bool is_of_it =
+      report->agent == awaited || mission::Means(awaited.value(), report->agent.value());
+  if (!is_of_it) return false;
   if (report->state == mission::State::kPutOff) {
     put_off_ = report->detail;
     return false;
   }
-  if (last_ && !mission::IsNewer(*report, *last_)) return false;
-  const bool is_news = !last_ || last_->state != report->state || last_->detail != report->detail;
+  const bool is_same_robot = last_ && last_->agent == report->agent;
+  if (is_same_robot && !mission::IsNewer(*report, *last_)) return false;
+  const bool is_news = !last_ || last_->state != report->state || last_->detail != report->detail ||
+                       last_->agent != report->agent;
   last_ = *report;
   return is_news;
 }
@@ -70,6 +76,55 @@ Result<mission::Report> Sending::Outcome(milliseconds timeout) const {
 bool Sending::Ended(milliseconds since) const {
   if (!last_ || !mission::HasEnded(last_->state)) return false;
   return last_->change > 0 || since > kRobotAnswers;
+}
+
+SendingToAll::SendingToAll(mission::Mission mission) : whole_(mission) {
+  const auto addressed = mission::ParseAddress(mission.agent.value());
+  for (const std::string& each :
+       addressed ? *addressed : std::vector<std::string>{mission.agent.value()}) {
+    mission.agent = AgentId(each);
+    each_.emplace_back(mission);
+  }
+}
+
+std::optional<mission::Report> SendingToAll::Hear(const exchange::Message& message) {
+  if (each_.size() > 1 && whole_.Hear(message)) return whole_.last();
+  for (Sending& sending : each_) {
+    if (sending.Hear(message)) return sending.last();
+  }
+  return std::nullopt;
+}
+
+template <typename Holds>
+bool SendingToAll::ForAll(const Holds& holds) const {
+  if (each_.size() > 1 && whole_.last()) return holds(whole_);
+  return std::all_of(each_.begin(), each_.end(), holds);
+}
+
+bool SendingToAll::Answered(milliseconds since, milliseconds timeout) const {
+  return ForAll([&](const Sending& each) { return each.Answered(since, timeout); });
+}
+
+bool SendingToAll::Ended(milliseconds since) const {
+  return ForAll([&](const Sending& each) { return each.Ended(since); });
+}
+
+bool SendingToAll::heard() const {
+  return ForAll([](const Sending& each) { return each.last().has_value(); });
+}
+
+milliseconds SendingToAll::SayAgain() const { return heard() ? kAgainWatched : kAgain; }
+
+Result<std::vector<mission::Report>> SendingToAll::Outcome(milliseconds timeout) const {
+  std::vector<mission::Report> reports;
+  for (const Sending& each : each_) {
+    if (each.last()) reports.push_back(*each.last());
+  }
+  const bool is_known = !reports.empty() && !whole_.last();
+  if (is_known) return reports;
+  const auto whole = each_.size() > 1 ? whole_.Outcome(timeout) : each_.front().Outcome(timeout);
+  if (!whole) return tl::unexpected(whole.error());
+  return std::vector{*whole};
 }
 
 }  // namespace trailcast::fleet

@@ -72,6 +72,7 @@ CREATE TABLE IF NOT EXISTS queue_hold (
   why TEXT NOT NULL,
   at_unix_ms INTEGER NOT NULL
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS staying_hold (agent TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS schedule (
   name TEXT PRIMARY KEY,
   words TEXT NOT NULL,
@@ -130,7 +131,8 @@ std::int64_t Before(const mission::Query& query) {
 MissionStore::Hold HoldIn(SQLite::Statement& row) {
   return {.agent = AgentId(row.getColumn(0).getString()),
           .why = row.getColumn(1).getString(),
-          .unix_ms = row.getColumn(2).getInt64()};
+          .unix_ms = row.getColumn(2).getInt64(),
+          .stays = row.getColumn(3).getInt() != 0};
 }
 
 MissionStore::Schedule ScheduleIn(SQLite::Statement& row) {
@@ -312,6 +314,32 @@ std::vector<Result<mission::Record>> MissionStore::Add(std::span<const mission::
   return Stored(missions.size(), tl::unexpected(stored.error()));
 }
 
+Result<std::vector<mission::Record>> MissionStore::AddAll(
+    std::span<const mission::Mission> missions, std::int64_t now_unix_ms) {
+  using Stored = std::vector<mission::Record>;
+  return database_->AllOrNothing("storing missions", [&]() -> Result<Stored> {
+    Stored stored;
+    for (const mission::Mission& mission : missions) {
+      auto added = database_->Add(mission, now_unix_ms);
+      if (!added) return tl::unexpected(added.error());
+      stored.push_back(*std::move(added));
+    }
+    return stored;
+  });
+}
+
+Result<void> MissionStore::Assign(const AgentId& group, const std::string& id,
+                                  const AgentId& robot) {
+  return database_->AllOrNothing("giving mission " + id + " to a robot", [&]() -> Result<void> {
+    if (database_->Get(robot, id)) {
+      return Fail(ErrorCode::kConflict, "'{}' has a mission {} already", robot.value(), id);
+    }
+    database_->Run("UPDATE mission SET agent = ?3 WHERE agent = ?1 AND id = ?2", group.value(), id,
+                   robot.value());
+    return {};
+  });
+}
+
 Result<bool> MissionStore::Amend(const AgentId& agent, const std::string& id,
                                  const std::string& orders) {
   return database_->AllOrNothing("storing other orders of mission " + id, [&]() -> Result<bool> {
@@ -348,23 +376,30 @@ Result<std::vector<mission::Record>> MissionStore::Unanswered() {
 }
 
 Result<void> MissionStore::Put(const Hold& hold) {
-  return database_->Guarded("storing that a queue is held", [&]() -> Result<void> {
+  return database_->AllOrNothing("storing that a queue is held", [&]() -> Result<void> {
     database_->Run("INSERT OR REPLACE INTO queue_hold (agent, why, at_unix_ms) VALUES (?1, ?2, ?3)",
                    hold.agent.value(), hold.why, hold.unix_ms);
+    database_->Run("DELETE FROM staying_hold WHERE agent = ?1", hold.agent.value());
+    if (hold.stays) {
+      database_->Run("INSERT INTO staying_hold (agent) VALUES (?1)", hold.agent.value());
+    }
     return {};
   });
 }
 
 Result<void> MissionStore::ForgetHold(const AgentId& agent) {
-  return database_->Guarded("forgetting that a queue was held", [&]() -> Result<void> {
+  return database_->AllOrNothing("forgetting that a queue was held", [&]() -> Result<void> {
     database_->Run("DELETE FROM queue_hold WHERE agent = ?1", agent.value());
+    database_->Run("DELETE FROM staying_hold WHERE agent = ?1", agent.value());
     return {};
   });
 }
 
 Result<std::vector<MissionStore::Hold>> MissionStore::Holds() {
   return database_->Read("reading which queues are held",
-                         "SELECT agent, why, at_unix_ms FROM queue_hold", HoldIn);
+                         "SELECT agent, why, at_unix_ms, EXISTS (SELECT 1 FROM staying_hold WHERE "
+                         "staying_hold.agent = queue_hold.agent) FROM queue_hold",
+                         HoldIn);
 }
 
 Result<void> MissionStore::Put(const Schedule& schedule) {

@@ -16,10 +16,12 @@
 #include "services/fleet/network_client.h"
 #include "services/fleet/operator_peer.h"
 #include "services/fleet/routes/catalog_client.h"
+#include "services/mission/address.h"
 #include "services/mission/orders.h"
 #include "services/network/words.h"
 #include "services/program/json.h"
 #include "services/program/stop_signal.h"
+#include "services/tool/commands/address_validator.h"
 #include "services/tool/commands/command.h"
 #include "services/tool/commands/time_spans.h"
 
@@ -32,7 +34,7 @@ constexpr double kLongest_s = 365.0 * 86400.0;
 constexpr std::chrono::milliseconds kLookAgain{1000};
 
 struct SendOptions {
-  std::string robot;
+  std::string robot;  // or a group, or several (mission/address.h)
   std::vector<std::string> orders;
   std::string again;
   std::string id;
@@ -80,6 +82,9 @@ constexpr const char* kSendExamples =
     "  trailcast send robot1 goto office@8           # round what is closed, or refused\n"
     "  trailcast send robot1 goto loading-bay\n"
     "  trailcast send robot1 --again 4f2a09c1d3e5b687  # what failed, once more\n"
+    "  trailcast send @cart follow hall              # whichever of cart-1, cart-2, .. is free "
+    "first\n"
+    "  trailcast send cart-1,cart-2,lift follow hall # all of them or none\n"
     "A robot does one mission at a time. A server keeps the others in a queue, and what a robot\n"
     "cannot hear yet; 'trailcast missions --open' shows them. The queue goes on by itself after a\n"
     "mission that arrived, and after any other once the robot is told to resume. 'trailcast "
@@ -91,6 +96,11 @@ constexpr const char* kSendExamples =
     "Exit status: 0 taken, or kept by a server (with --wait: arrived); 1 refused, put off "
     "by servers, nobody\nanswered, or no such robot is known (with --wait: not arrived); 2 wrong "
     "usage, also of orders.";
+
+// Says whether it is for one robot, whose name is known.
+bool IsForOne(const SendOptions& options) {
+  return options.robot.find(',') == std::string::npos && !mission::IsGroup(options.robot);
+}
 
 // Fills in the orders of the mission of that id, the newest of several.
 Result<void> TakeOrders(fleet::OperatorPeer& peer, SendOptions& options) {
@@ -125,6 +135,18 @@ Result<std::optional<std::string>> GoalOf(const SendOptions& options) {
   return options.orders[1];
 }
 
+// Returns the orders by which a server finds each robot's path once it is about to begin. Fails if
+// there is no such place.
+Result<std::string> OrdersWithoutPath(const std::string& goal, const fleet::OperatorPeer& peer,
+                                      const SendOptions& options) {
+  if (goal != mission::kHomeWord) {
+    const auto way =
+        fleet::AskForWay(*peer.exchange, peer.self, goal, goal, ToMilliseconds(options.timeout_s));
+    if (!way) return tl::unexpected(way.error());
+  }
+  return fmt::format("goto {} wait way", goal);
+}
+
 // Returns the path there as one mission's orders, or nothing if the robot is there already. It
 // prints the path.
 Result<std::string> OrdersTo(const std::string& goal, const fleet::OperatorPeer& peer,
@@ -145,6 +167,9 @@ Result<std::string> OrdersTo(const std::string& goal, const fleet::OperatorPeer&
 Result<void> CheckOrders(const SendOptions& options) {
   if (options.orders.empty() == options.again.empty()) {
     return Fail(ErrorCode::kInvalidArgument, "either ORDERS or --again MISSION is needed");
+  }
+  if (!options.from.empty() && !IsForOne(options)) {
+    return Fail(ErrorCode::kInvalidArgument, "--from is for one robot alone");
   }
   if (!options.again.empty()) return {};
   const auto goal = GoalOf(options);
@@ -170,9 +195,11 @@ int Send(const CLI::App& app, const program::CommonOptions& common, SendOptions 
   if (goes_to_a_place || !options.again.empty()) and_also(exchange::NetworkTopics());
   auto peer = fleet::JoinAsOperator(common, use);
   if (!peer) return program::Complain(app, peer.error());
-  if (const auto unknown = options.unheard ? std::nullopt
-                                           : fleet::FindUnknown(*peer->exchange, peer->self,
-                                                                options.robot, kAllAreHeard)) {
+  for (const std::string& each : *mission::ParseAddress(options.robot)) {
+    const auto unknown = options.unheard
+                             ? std::nullopt
+                             : fleet::FindUnknown(*peer->exchange, peer->self, each, kAllAreHeard);
+    if (!unknown) continue;
     return program::Complain(app,
                              {unknown->code, unknown->message + "; --unheard has a server keep "
                                                                 "it all the same"});
@@ -191,7 +218,8 @@ int Send(const CLI::App& app, const program::CommonOptions& common, SendOptions 
                            .valid_for_s = static_cast<std::uint32_t>(options.valid_s),
                            .goes_on = options.goes_on};
   if (*goal) {
-    auto orders = OrdersTo(**goal, *peer, options);
+    auto orders = IsForOne(options) ? OrdersTo(**goal, *peer, options)
+                                    : OrdersWithoutPath(**goal, *peer, options);
     if (!orders) return program::Complain(app, orders.error());
     if (orders->empty()) return program::kExitOk;
     mission.orders = *std::move(orders);
@@ -207,12 +235,16 @@ int Send(const CLI::App& app, const program::CommonOptions& common, SendOptions 
       std::fflush(stdout);
     };
   }
-  const auto report = fleet::SendMission(*peer->exchange, mission, watch);
-  if (!report) return program::Complain(app, report.error());
-  if (options.json) fmt::print("{}", program::Indented(fleet::ReportJson(*report)));
-  const bool well = options.wait
-                        ? report->state == State::kArrived
-                        : !mission::HasEnded(report->state) || report->state == State::kArrived;
+  const auto reports = fleet::SendMission(*peer->exchange, mission, watch);
+  if (!reports) return program::Complain(app, reports.error());
+  if (options.json) {
+    auto all = program::Json::array();
+    for (const mission::Report& report : *reports) all.push_back(fleet::ReportJson(report));
+    fmt::print("{}", program::Indented(IsForOne(options) ? all.front() : all));
+  }
+  const bool well = std::all_of(reports->begin(), reports->end(), [&](const auto& report) {
+    return report.state == State::kArrived || (!options.wait && !mission::HasEnded(report.state));
+  });
   return well ? program::kExitOk : program::kExitFailure;
 }
 
@@ -369,9 +401,12 @@ Command AddSend(CLI::App& parent, const program::CommonOptions& common) {
   auto options = std::make_shared<SendOptions>();
   CLI::App* app = parent.add_subcommand("send", "Send an available robot along routes");
   app->footer(kSendExamples);
-  app->add_option("ROBOT", options->robot, "Its name, as --name of 'trailcast-agent serve'")
+  app->add_option("ROBOT", options->robot,
+                  "Its name, as --name of 'trailcast-agent serve'; '@GROUP' for whichever robot of "
+                  "a group is free first, those that are numbered alike; several with commas "
+                  "between them, which all get it or none")
       ->required()
-      ->check(program::NameValidator());
+      ->check(AddressValidator());
   auto* orders = app->add_option("ORDERS", options->orders, "What it is to do: see below");
   app->add_option("--again", options->again,
                   "In place of ORDERS: those of this mission, which 'trailcast missions' lists, of "

@@ -9,6 +9,7 @@
 #include "services/fleet/operator_peer.h"
 #include "services/fleet/routes/transfer.h"
 #include "services/program/json.h"
+#include "services/tool/commands/address_validator.h"
 #include "services/tool/commands/command.h"
 
 namespace trailcast::tool {
@@ -72,8 +73,12 @@ Command AddOne(CLI::App& parent, const program::CommonOptions& common, NowOrder 
   CLI::App* app = parent.add_subcommand(exchange::ToString(order), help);
   app->footer(kNowExamples);
   auto* robots =
-      app->add_option("ROBOT", options->robots, "Their names, as --name of their agents");
-  robots->check(program::NameValidator());
+      app->add_option("ROBOT", options->robots,
+                      "Their names, as --name of their agents; cancel, stop and resume also take "
+                      "'@GROUP': what waits for a free robot of it");
+  const bool for_groups =
+      order == NowOrder::kCancel || order == NowOrder::kStop || order == NowOrder::kResume;
+  robots->check(for_groups ? AddressValidator() : program::NameValidator());
   auto* route = app->add_option("--route", options->route, "Those on the route of this name");
   route->check(program::NameValidator());
   auto* all = app->add_flag("--all", options->all, "Every robot");

@@ -192,6 +192,39 @@ TEST_F(ConsoleHomeTest, TheFirstViewIsSmallAndWhatIsOpenedSeldomIsLoadedWhenItIs
   EXPECT_TRUE(browser.WaitForText("Routes and places with")) << browser.Text();
 }
 
+TEST_F(ConsoleHomeTest, WhicheverRobotOfAGroupIsFreeFirstIsSentAndWhatWaitsIsListed) {
+  most_mps_ = "0.06";  // on its way for a minute
+  ASSERT_NO_FATAL_FAILURE(Begin());
+  ASSERT_NO_FATAL_FAILURE(AlsoPutOnDuty("robot2"));
+  ASSERT_NO_FATAL_FAILURE(AlsoPutOnDuty("cart1"));
+  for (const char* robot : {"robot2", "cart1"}) {
+    ASSERT_TRUE(WaitForStateOf(robot, "available")) << State().dump(2);
+  }
+  Browser browser(folder_ / "");
+  ASSERT_TRUE(browser.runs()) << browser.log();
+  browser.Look(1280, 1000);
+  browser.Open(Page());
+  ASSERT_TRUE(browser.WaitForText("cart1")) << browser.Text();
+  ASSERT_TRUE(browser.Click("//option[. = 'robot (2)']")) << browser.Text();
+  const std::string group = "//section[@aria-label='Group robot']";
+  const auto send = [&] {
+    return browser.Click(group + "//button[starts-with(., 'Send one of robot')]") &&
+           browser.WaitForText("Slide to send a free robot of robot along hall") &&
+           browser.Type(group + "//input[@type='range']", kSlide);
+  };
+  ASSERT_TRUE(send()) << browser.Text();
+  ASSERT_TRUE(WaitForStateOf("robot1", "driving")) << State().dump(2);
+  ASSERT_TRUE(send()) << browser.Text();
+  ASSERT_TRUE(WaitForStateOf("robot2", "driving")) << State().dump(2);
+  ASSERT_TRUE(send()) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("no robot of @robot is free; robot1: it does mission"))
+      << browser.Text();
+  browser.Screenshot(Shot("group"));
+  ASSERT_TRUE(browser.Click(group + "//button[. = 'Cancel what waits']")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("what waits for the group is told so")) << browser.Text();
+  EXPECT_EQ(Sent(), (std::set<std::string>{"@robot", "robot1", "robot2"})) << State().dump(2);
+}
+
 TEST_F(ConsoleHomeTest, SeveralRobotsAreSelectedAndToldAtOnceAndWhoDoesNotObeyIsNamed) {
   most_mps_ = "0.06";  // on its way for a minute
   ASSERT_NO_FATAL_FAILURE(Begin());

@@ -44,6 +44,9 @@ TEST(ConsoleBodies, AMissionNeedsOrdersThatAreUnderstood) {
   EXPECT_EQ(send->valid_s, 0U);
   EXPECT_TRUE(send->goes_on);
   EXPECT_EQ(ReadSend(R"({"orders": "wait 1"})")->valid_s, 600U);
+  EXPECT_EQ(ReadSend(R"({"to": "@cart,lift", "orders": "wait 1"})", true)->to, "@cart,lift");
+  EXPECT_THAT(ReadSend(R"({"orders": "wait 1"})", true).error().message, HasSubstr("'to': '' is"));
+  EXPECT_FALSE(ReadSend(R"({"to": "lift", "orders": "wait 1"})")) << "its address says that";
   EXPECT_THAT(ReadSend(R"({"orders": "dance"})").error().message, HasSubstr("dance"));
   for (const char* wrong :
        {"", "{}", R"({"orders": "wait 1", "id": "a b"})", R"({"orders": "wait 1", "valid_s": -1})",

@@ -55,7 +55,8 @@ class MissionClientTest : public testing::Test {
                         .id = "m1",
                         .client = AgentId("desk"),
                         .orders = "follow hall"},
-                       watch);
+                       watch)
+        .map([](const std::vector<Report>& reports) { return reports.front(); });
   }
 
   exchange::InProcessBus bus_;

@@ -304,10 +304,15 @@ TEST_F(MissionStoreTest, KeepsWhichQueuesAreHeldAndWhyOverARestart) {
   ASSERT_TRUE(store_->Put(Hold{AgentId("robot1"), "", 2000}));
   ASSERT_TRUE(store_->ForgetHold(AgentId("robot2")));
   ASSERT_TRUE(store_->ForgetHold(AgentId("robot3")));
+  ASSERT_TRUE(store_->Put(Hold{AgentId("robot4"), "sent home", 3000, true}));
+  ASSERT_TRUE(store_->Put(Hold{AgentId("robot5"), "sent home", 3000, true}));
+  ASSERT_TRUE(store_->Put(Hold{AgentId("robot5"), "stopped", 4000}));
   Reopen();
   const auto holds = store_->Holds();
   ASSERT_TRUE(holds) << holds.error().message;
-  EXPECT_THAT(*holds, ElementsAre(Hold{AgentId("robot1"), "", 2000}));
+  EXPECT_THAT(*holds, ElementsAre(Hold{AgentId("robot1"), "", 2000},
+                                  Hold{AgentId("robot4"), "sent home", 3000, true},
+                                  Hold{AgentId("robot5"), "stopped", 4000}));
 }
 
 TEST_F(MissionStoreTest, KeepsSchedulesAndWhatTheyHaveSentOverARestart) {

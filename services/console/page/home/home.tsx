@@ -47,7 +47,7 @@ export function Home({ fleet, open, chosen, settled, lost_ms, now_ms, onStop }: 
     <>
     <Guide fleet={fleet} settled={settled} />
     <div className="home">
-      <RobotRows robots={robots} settled={settled} chosen={chosen?.name ?? ''} now_ms={now_ms} onStop={onStop} />
+      <RobotRows robots={robots} missions={fleet?.missions ?? []} settled={settled} chosen={chosen?.name ?? ''} now_ms={now_ms} onStop={onStop} />
       <section className="pane one" aria-label="Chosen robot" ref={pane}>
         {chosen
           ? <RobotCard key={chosen.name} robot={chosen} lost_ms={lost_ms} now_ms={chosen.heard && lost_ms === null ? 0 : now_ms} />

@@ -1,10 +1,11 @@
 import { memo, useCallback, useContext, useRef, useState, type KeyboardEvent, type MouseEvent } from 'react';
-import type { Robot } from '../api';
+import type { Mission, Robot } from '../api';
 import { age, compareNames } from '../fleet';
 import { Lost } from '../lost';
 import { useMay } from '../me';
 import { Glyph, capital, mayMove } from '../robot/state';
 import { StopButton } from '../stop';
+import { GroupSend } from './group';
 import { Several } from './several';
 
 const kLow_percent = 20;
@@ -38,12 +39,9 @@ export function placeText(robot: Robot): string {
   return robot.route;
 }
 
-// Robots do not tell their group. Those that are numbered alike are one, as "cart-1" and "cart-2" are.
-export const groupOf = (name: string) => name.replace(/[-_.]?\d+$/, '');
-
 function groupsOf(robots: Robot[]): [string, number][] {
   const counts = new Map<string, number>();
-  for (const { name } of robots) counts.set(groupOf(name), (counts.get(groupOf(name)) ?? 0) + 1);
+  for (const { group } of robots) counts.set(group, (counts.get(group) ?? 0) + 1);
   const groups = [...counts].filter(([, count]) => count > 1);
   return groups.length > 0 && counts.size > 1 ? groups.sort(([one], [other]) => one.localeCompare(other)) : [];
 }
@@ -107,8 +105,9 @@ function step(event: KeyboardEvent<HTMLElement>) {
   to.focus();
 }
 
-export function RobotRows({ robots, settled, chosen, now_ms, onStop }: {
+export function RobotRows({ robots, missions, settled, chosen, now_ms, onStop }: {
   robots: Robot[];
+  missions: Mission[];
   settled: boolean;
   chosen: string;
   now_ms: number;
@@ -124,7 +123,7 @@ export function RobotRows({ robots, settled, chosen, now_ms, onStop }: {
   const group = groups.some(([name]) => name === wanted) ? wanted : '';
   const found = robots.filter((robot) => {
     const text = `${robot.name} ${robot.state} ${robot.route} ${robot.mission?.orders ?? ''}`.toLowerCase();
-    return kinds[kind].has(robot) && (group === '' || groupOf(robot.name) === group) && words.toLowerCase().split(/\s+/).every((word) => text.includes(word));
+    return kinds[kind].has(robot) && (group === '' || robot.group === group) && words.toLowerCase().split(/\s+/).every((word) => text.includes(word));
   }).sort(orders[order].compare);
   const selectable = found.filter((robot) => robot.role === 'follower').map(({ name }) => name);
   const selected = stops ? robots.filter((robot) => names.has(robot.name)) : [];
@@ -192,6 +191,7 @@ export function RobotRows({ robots, settled, chosen, now_ms, onStop }: {
             seen={robot.last_heard_unix_ms === null ? '' : `, seen ${age(now_ms - robot.last_heard_unix_ms)} ago`} />
         ))}
       </ul>
+      {stops && group !== '' && selected.length === 0 && <GroupSend key={group} group={group} missions={missions} />}
       {selected.length > 0 && <Several robots={selected} hidden={selected.length - shown} onClear={() => setNames(new Set())} />}
     </section>
   );

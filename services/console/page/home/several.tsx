@@ -1,5 +1,5 @@
 import { useContext, useEffect, useState } from 'react';
-import { send, stopOne, stopsSaid, tell, type Answer, type Order, type Robot } from '../api';
+import { sendTo, stopOne, stopsSaid, tell, type Answer, type Order, type Robot } from '../api';
 import { compareNames, when } from '../fleet';
 import { Lost } from '../lost';
 import { labels } from '../robot/robot';
@@ -34,7 +34,7 @@ const counted = (count: number) => `${count} robot${count === 1 ? '' : 's'}`;
 export function Several({ robots, hidden, onClear }: { robots: Robot[]; hidden: number; onClear: () => void }) {
   const [sends, setSends] = useState(false);
   const [busy, setBusy] = useState('');
-  const [answer, setAnswer] = useState<{ text: string; failed: { robot: string; why: string }[] } | null>(null);
+  const [answer, setAnswer] = useState<{ text: string; bad: boolean; failed: { robot: string; why: string }[] } | null>(null);
   const who = robots.map(({ name }) => name).join(' ');
   useEffect(() => setAnswer(null), [who]);
   const all = async (what: string, say: (robot: string) => Promise<Answer>, isStop = false) => {
@@ -45,9 +45,20 @@ export function Several({ robots, hidden, onClear }: { robots: Robot[]; hidden: 
     const failed = await tellEach(robots, say, () => !isStop && stopsSaid() !== stops, (count) => setBusy(`Sending ${what} to ${counted(of)}: ${count} done …`));
     setBusy('');
     setAnswer({
+      bad: failed.length > 0,
       text: `${what}, ${when(Date.now()).slice(11)}: ${failed.length === 0 ? (of === 1 ? 'it obeyed.' : `all ${of} obeyed.`) : `${of - failed.length} of ${of} obeyed. Did not:`}`,
       failed,
     });
+  };
+  // All get it or none.
+  const sendAll = async (orders: string) => {
+    setSends(false);
+    setAnswer(null);
+    setBusy(`Sending Mission to ${counted(robots.length)} …`);
+    const said = await sendTo(robots.map(({ name }) => name).join(','), orders);
+    setBusy('');
+    const outcome = !said.ok ? said.text : robots.length === 1 ? 'it obeyed.' : `all ${robots.length} obeyed.`;
+    setAnswer({ bad: !said.ok, text: `Mission, ${when(Date.now()).slice(11)}: ${outcome}`, failed: [] });
   };
   const order = (given: Order) => all(labels[given], (robot) => (given === 'stop' ? stopOne(robot) : tell(robot, given)), given === 'stop');
   const moves = robots.some(mayMove);
@@ -66,11 +77,11 @@ export function Several({ robots, hidden, onClear }: { robots: Robot[]; hidden: 
         <button disabled={busy !== ''} aria-expanded={sends} onClick={() => setSends(!sends)}>Send …</button>
       </div>
       {sends && busy === '' && (
-        <Send who={counted(robots.length)} onGo={(orders) => { setSends(false); void all('Mission', (robot) => send(robot, orders)); }} />
+        <Send who={counted(robots.length)} onGo={(orders) => void sendAll(orders)} />
       )}
       <div role="status">
         {busy && <p className="answer">{busy}</p>}
-        {answer && <p className={answer.failed.length > 0 ? 'answer bad' : 'answer'}>{answer.failed.length > 0 && '⚠ '}{answer.text}</p>}
+        {answer && <p className={answer.bad ? 'answer bad' : 'answer'}>{answer.bad && '⚠ '}{answer.text}</p>}
         {answer && answer.failed.length > 0 && (
           <ul>{answer.failed.map(({ robot, why }) => <li key={robot}><a href={`#fleet/${robot}`}>{robot}</a>: {why}</li>)}</ul>
         )}

@@ -10,6 +10,7 @@
 #include "services/console/parameters.h"
 #include "services/console/src/api/words.h"
 #include "services/exchange/bounds.h"
+#include "services/mission/address.h"
 #include "services/mission/orders.h"
 #include "services/network/words.h"
 #include "services/program/json.h"
@@ -116,9 +117,16 @@ std::string ReasonIfAny(const std::string& body) {
   return PlainText(json["reason"].get_ref<const std::string&>(), exchange::kMaxLineBytes);
 }
 
-Result<SendBody> ReadSend(const std::string& body) {
-  const auto json = ReadObject(body, {"orders", "id", "valid_s", "goes_on", "unheard"});
+Result<SendBody> ReadSend(const std::string& body, bool has_to) {
+  std::set<std::string> names{"orders", "id", "valid_s", "goes_on", "unheard"};
+  if (has_to) names.insert("to");
+  const auto json = ReadObject(body, names);
   if (!json) return tl::unexpected(json.error());
+  auto to = LineIn(*json, "to");
+  if (!to) return tl::unexpected(to.error());
+  if (const auto addressed = mission::ParseAddress(*to); has_to && !addressed) {
+    return Fail(ErrorCode::kInvalidArgument, "'to': {}", addressed.error().message);
+  }
   auto orders = LineIn(*json, "orders");
   if (!orders) return tl::unexpected(orders.error());
   if (const auto tasks = mission::ParseOrders(*orders); !tasks) {
@@ -130,7 +138,7 @@ Result<SendBody> ReadSend(const std::string& body) {
     return Fail(ErrorCode::kInvalidArgument,
                 "'id' is to be a name of 1 to 64 letters, digits, '_', '.', '-'");
   }
-  SendBody send{.orders = *std::move(orders), .id = *std::move(id)};
+  SendBody send{.to = *std::move(to), .orders = *std::move(orders), .id = *std::move(id)};
   if (json->contains("valid_s")) {
     const Json& valid_s = (*json)["valid_s"];
     if (!valid_s.is_number_unsigned() || valid_s.get<std::uint64_t>() > kLongestValid_s) {

@@ -13,6 +13,7 @@
 #include "services/base/text.h"
 #include "services/console/src/api/words.h"
 #include "services/exchange/bounds.h"
+#include "services/mission/address.h"
 #include "services/network/words.h"
 #include "services/route/bounds.h"
 #include "services/route/query_words.h"
@@ -57,6 +58,13 @@ auto NameInto(std::string Query::*field) {
     query.*field = text;
     return {};
   };
+}
+
+Result<void> ReadAgent(const std::string& text, mission::Query& query) {
+  const auto addressed = mission::ParseAddress(text);
+  if (!addressed) return tl::unexpected(addressed.error());
+  query.agent = text;
+  return {};
 }
 
 // Reads a name as a log has it, which may be any text.
@@ -160,7 +168,7 @@ const Readers<PagedQuery>& RouteParameters() {
 
 Readers<mission::Query> RecordParameters() {
   using mission::Query;
-  return {{"robot", NameInto<Query>(&Query::agent)},
+  return {{"robot", ReadAgent},
           {"route", NameInto<Query>(&Query::route)},
           {"by", NameInto<Query>(&Query::client)},
           {"from_unix_ms", NumberInto<Query, std::int64_t>(&Query::from_unix_ms)},

@@ -261,7 +261,7 @@ void Web::Stream(const Request& request, Response& response) {
 void Web::ServeOrders() {
   for (const NowOrder order : kOrders) {
     const std::string path =
-        fmt::format("/api/robots/([A-Za-z0-9_.-]{{1,64}})/{}", mission::ToString(order));
+        fmt::format("/api/robots/(@?[A-Za-z0-9_.-]{{1,64}})/{}", mission::ToString(order));
     auto tell = [this, order](const Request& request, Response& response) {
       Tell(order, {NowWhom::kRobot, request.matches[1]}, request, response);
     };
@@ -310,23 +310,32 @@ void Web::ServeMissions() {
                [this](const Request& request, Response& response) {
                  Send(request.matches[1], request, response);
                });
+  server_.Post("/api/missions",
+               [this](const Request& request, Response& response) { Send("", request, response); });
 }
 
 void Web::Send(const std::string& robot, const Request& request, Response& response) {
-  const auto body = ReadSend(request.body);
+  const auto body = ReadSend(request.body, robot.empty());
   if (!body) return Refuse(response, 400, body.error().message);
-  const auto report = desk_.Send({.agent = AgentId(robot),
-                                  .id = body->id.empty() ? IdFor(access_.WhoIs(request)) : body->id,
-                                  .orders = body->orders,
-                                  .valid_for_s = body->valid_s,
-                                  .goes_on = body->goes_on},
-                                 body->unheard);
-  if (!report) {
-    const bool unknown = report.error().code == ErrorCode::kNotFound;
-    return Refuse(response, unknown ? 404 : 504, report.error().message);
+  const auto reports =
+      desk_.Send({.agent = AgentId(robot.empty() ? body->to : robot),
+                  .id = body->id.empty() ? IdFor(access_.WhoIs(request)) : body->id,
+                  .orders = body->orders,
+                  .valid_for_s = body->valid_s,
+                  .goes_on = body->goes_on},
+                 body->unheard);
+  if (!reports) {
+    const bool unknown = reports.error().code == ErrorCode::kNotFound;
+    return Refuse(response, unknown ? 404 : 504, reports.error().message);
   }
-  const bool taken = !mission::HasEnded(report->state) || report->state == mission::State::kArrived;
-  Answer(response, taken ? 200 : 409, OneLine(fleet::ReportJson(*report)));
+  auto all = program::Json::array();
+  bool taken = true;
+  for (const mission::Report& report : *reports) {
+    all.push_back(fleet::ReportJson(report));
+    taken = taken && (!mission::HasEnded(report.state) || report.state == mission::State::kArrived);
+  }
+  Answer(response, taken ? 200 : 409,
+         OneLine(robot.empty() ? program::Json{{"missions", all}} : all.front()));
 }
 
 }  // namespace trailcast::console

@@ -562,6 +562,51 @@ TEST_F(GoingHome, OneThatIsThereHasArrived) {
   EXPECT_EQ(StateOf(kHome), State::kArrived);
 }
 
+TEST_F(GoingHome, SentHomeWithAllItDoesNothingThatIsSentLaterUntilItIsToldToResume) {
+  Plan();
+  RobotIsThere();
+  Tell(NowOrder::kHome, NowWhom::kAll, "");
+  Answer();
+  EXPECT_EQ(HandedOver()->id, kHome);
+  RobotSays(kHome, 1, State::kArrived);
+  for (int restarts = 0; restarts < 2; ++restarts) {
+    (void)Say();
+    Restart();
+    Plan();
+    RobotIsThere();
+  }
+  Hear(For("m1"));
+  EXPECT_FALSE(HandedOver());
+  EXPECT_THAT(WaitsFor("m1"), HasSubstr("sent home by desk on"));
+  Tell(NowOrder::kCancel);
+  EXPECT_EQ(StateOf("m1"), State::kCancelled);
+  Hear(For("m2"));
+  EXPECT_FALSE(HandedOver()) << "it was not told to resume";
+  Tell(NowOrder::kResume, NowWhom::kAll, "");
+  EXPECT_EQ(HandedOver()->id, "m2");
+}
+
+TEST_F(GoingHome, AQueueIsHeldThoughItsRobotIsOutOfReachOfThatCommand) {
+  Hear(For("m1"));
+  Tell(NowOrder::kHome, NowWhom::kAll, "");
+  RobotIsThere();
+  EXPECT_FALSE(HandedOver());
+  EXPECT_THAT(WaitsFor("m1"), HasSubstr("sent home by desk on"));
+  Tell(NowOrder::kResume);
+  EXPECT_EQ(HandedOver()->id, "m1");
+}
+
+TEST_F(GoingHome, OneThatWasSentHomeAloneWithoutAQueueDoesWhatItIsSent) {
+  Plan();
+  RobotIsThere();
+  Tell(NowOrder::kHome);
+  Answer();
+  EXPECT_EQ(HandedOver()->id, kHome);
+  RobotSays(kHome, 1, State::kArrived);
+  Hear(For("m1"));
+  EXPECT_EQ(HandedOver()->id, "m1");
+}
+
 TEST_F(GoingHome, ItGoesBeforeItsQueueAlsoOverARestart) {
   Plan();
   Hear(For("m1", "follow yard"));
