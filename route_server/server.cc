@@ -144,6 +144,8 @@ void Server::KeepWays() {
     if (!way) return tl::unexpected(way.error());
     return !way->empty();
   });
+  charging_.emplace(presence_.status().agent, *missions_, *network_);
+  missions_->WaitBy([this](const mission::Record& first) { return charging_->WhyNot(first); });
   for (const std::string& line : lanes_->LookAtAll(steady_clock::now())) spdlog::info("{}", line);
 }
 
@@ -170,6 +172,7 @@ void Server::Receive(exchange::Message message) {
     }
     missions_->Handle(message, now, NowUnixMs());
     schedules_->Hear(message);
+    if (charging_) charging_->Hear(message);
   }
   if (passed_on) return;
   presence_.Handle(message);
@@ -312,11 +315,18 @@ void Server::TellAgents() {
 void Server::TellMissions() {
   if (!missions_) return;
   TellSchedules();
+  SendToCharge();
   // Anything that cannot be sent is requested, or sent, again.
   (void)exchange::PublishAll(*exchange_, missions_->Tick(steady_clock::now(), NowUnixMs()));
   for (const MissionRegistry::Note& note : missions_->TakeNotes()) {
     spdlog::log(note.warning ? spdlog::level::warn : spdlog::level::info, "{}", note.text);
   }
+}
+
+void Server::SendToCharge() {
+  if (!charging_) return;
+  charging_->Tick(steady_clock::now(), NowUnixMs());
+  for (const std::string& trouble : charging_->TakeTroubles()) spdlog::warn("{}", trouble);
 }
 
 // Segments that were appended are on the disk, and routes announced as deleted are not.

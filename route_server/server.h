@@ -13,6 +13,7 @@
 #include "route_server/fleet/route_followers.h"
 #include "route_server/fleet/schedule_registry.h"
 #include "route_server/junctions/junction_finder.h"
+#include "route_server/network/charging.h"
 #include "route_server/network/network_registry.h"
 #include "route_server/network/replanning.h"
 #include "route_server/network/zone_admission.h"
@@ -104,6 +105,7 @@ class Server {
   // a request that is about something else.
   [[nodiscard]] Result<void> OpenSchedules();
   void TellSchedules();
+  void SendToCharge();
   [[nodiscard]] bool ServeSchedules(const exchange::Message& request);
   [[nodiscard]] std::string ClosedIn(const std::string& orders);
   void Replan(const AgentId& agent);
@@ -161,6 +163,7 @@ class Server {
   std::chrono::steady_clock::time_point keeping_due_{};  // for what is learnt of the network
   std::optional<Replanning> replanning_;                 // with missions and network
   std::optional<ZoneAdmission> lanes_;                   // likewise
+  std::optional<Charging> charging_;                     // likewise
   std::uint64_t told_dropped_ = 0;
   bool views_wait_ = false;  // for the store
   Metrics metrics_;

@@ -76,6 +76,11 @@ Result<Lines> NetworkRegistry::Leave(const network::Edit& edit) {
   network::Condition where = edit.condition;
   where.route = meant->key.route.value();
   Lines lines;
+  if (edit.kind == network::Edit::Kind::kVacate) {
+    auto vacated = VacateDocks(where);
+    if (!vacated) return vacated;
+    lines = *std::move(vacated);
+  }
   for (auto kept = lanes_.begin(); kept != lanes_.end();) {
     if (!Overlaps(kept->lane, where)) {
       ++kept;
@@ -103,9 +108,10 @@ Result<Lines> NetworkRegistry::Leave(const network::Edit& edit) {
     ++kept;
   }
   if (!lines.empty()) return lines;
-  return Fail(ErrorCode::kNotFound, "{} {} narrow there",
-              edit.kind == network::Edit::Kind::kWide ? "nothing is" : "nobody has what is",
-              meant->name);
+  if (edit.kind == network::Edit::Kind::kWide) {
+    return Fail(ErrorCode::kNotFound, "nothing is {} narrow there", meant->name);
+  }
+  return Fail(ErrorCode::kNotFound, "nobody has what is {} narrow there, nor a dock", meant->name);
 }
 
 Result<std::vector<Lane>> NetworkRegistry::Lanes() {

@@ -44,6 +44,10 @@ std::vector<std::string> NamesOf(const std::set<AgentId>& agents) {
   return names;
 }
 
+std::string TakenText(const std::string& line, const std::set<AgentId>& holders) {
+  return fmt::format("{}{}{}", line, network::kTakenBy, fmt::join(NamesOf(holders), " "));
+}
+
 std::string ListedText(const std::string& edit, bool used) {
   return used ? edit : std::string(network::kUnused) + edit;
 }
@@ -99,6 +103,12 @@ Result<std::unique_ptr<NetworkRegistry>> NetworkRegistry::Open(
   if (!lanes) return tl::unexpected(lanes.error());
   const auto followed = registry->store_->Followed();
   if (!followed) return tl::unexpected(followed.error());
+  auto holders = registry->store_->DockHolders();
+  if (!holders) return tl::unexpected(holders.error());
+  const auto charge = registry->store_->Charge();
+  if (!charge) return tl::unexpected(charge.error());
+  registry->dock_holders_ = *std::move(holders);
+  registry->charge_limits_ = *charge;
   registry->followed_.Load(*followed);
   registry->lanes_ = *std::move(lanes);
   registry->proposed_ = *std::move(proposed);
@@ -194,6 +204,8 @@ Result<Lines> NetworkRegistry::Carry(const Edit& edit, const std::string& by,
       return Name(edit.named, by, now_unix_ms);
     case Edit::Kind::kForget:
       return Forget(edit.named.name);
+    case Edit::Kind::kCharge:
+      return SetCharge(edit.charge);
     case Edit::Kind::kConfirm:
     case Edit::Kind::kRefuse:
       return Settle(edit, by, now_unix_ms);
@@ -300,7 +312,11 @@ Result<Lines> NetworkRegistry::Name(NamedPlace named, const std::string& by,
   if (!place) return tl::unexpected(place.error());
   named.place = *std::move(place);
   if (auto put = store_->Put(named, by, now_unix_ms); !put) return tl::unexpected(put.error());
-  named_[named.name] = named;
+  NamedPlace& known_as = named_[named.name];
+  if (!named.dock || !IsNear(known_as.place, named.place)) {
+    if (auto left = HoldDock(named.name, {}); !left) return tl::unexpected(left.error());
+  }
+  known_as = named;
   NoteChange();
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
   const auto called = Called(named);
@@ -316,6 +332,7 @@ Result<Lines> NetworkRegistry::Forget(const std::string& name) {
   if (!called) return tl::unexpected(called.error());
   if (auto forgotten = store_->Forget(name); !forgotten) return tl::unexpected(forgotten.error());
   named_.erase(at);
+  dock_holders_.erase(name);
   NoteChange();
   return Lines{network::ToText(*called)};
 }
@@ -341,15 +358,20 @@ Result<Lines> NetworkRegistry::All() {
   for (std::string& line : PoorLines()) lines.push_back(std::move(line));
   for (const store::KeptLane& kept : lanes_) {
     std::string line = network::ToText(CalledLane(kept));
-    if (!kept.holders.empty()) {
-      line += fmt::format("{}{}", network::kTakenBy, fmt::join(NamesOf(kept.holders), " "));
-    }
+    if (!kept.holders.empty()) line = TakenText(line, kept.holders);
     lines.push_back(PlainText(line, exchange::kMaxLineBytes));
   }
   for (const auto& [name, named] : named_) {
     const auto called = Called(named);
     if (!called) return tl::unexpected(called.error());
     lines.push_back(ListedText(network::ToText(*called), IsUsed(named.place)));
+    const auto holders = dock_holders_.find(name);
+    if (holders == dock_holders_.end() || holders->second.empty()) continue;
+    lines.back() = PlainText(TakenText(lines.back(), holders->second), exchange::kMaxLineBytes);
+  }
+  if (charge_limits_) lines.push_back(network::ToText(charge_limits_));
+  for (const network::Charging& each : charging_) {
+    lines.push_back(PlainText(network::ToText(each), exchange::kMaxLineBytes));
   }
   for (const std::size_t each : Open()) {
     network::Proposal proposal = proposed_[each].proposal;

@@ -117,6 +117,26 @@ class NetworkRegistry {
   [[nodiscard]] std::string Called(std::size_t lane) const;  // named after its first part
   // Returns the robots whose reported places an operator has contradicted since the last call.
   [[nodiscard]] std::set<AgentId> TakeVacated() { return std::exchange(vacated_, {}); }
+  // Docks, of revisions that are followed.
+  struct Dock {
+    std::string name{};
+    std::vector<network::Place> places{};  // on each route that passes there, as far as is known
+    std::set<AgentId> holders{};
+  };
+  [[nodiscard]] Result<std::vector<Dock>> Docks();
+  // Returns the robots of which an operator has said since the last call that they are not at
+  // docks.
+  [[nodiscard]] std::set<AgentId> TakeSentOff() { return std::exchange(sent_off_, {}); }
+  // This is on the disk when it returns.
+  [[nodiscard]] Result<void> HoldDock(const std::string& name, const std::set<AgentId>& holders);
+  [[nodiscard]] const std::optional<network::ChargeLimits>& charge_limits() const {
+    return charge_limits_;
+  }
+  // Lists from now on that these robots charge, or why they do not yet.
+  void Show(std::vector<network::Charging> charging) { charging_ = std::move(charging); }
+  // Returns the place that a destination means; fails for "home".
+  [[nodiscard]] Result<network::Place> PlaceOf(const std::string& goal) const;
+
   // Returns a path as a mission has it: it waits before zones that are not open to it
   // (network::LegsOf).
   [[nodiscard]] Result<std::vector<mission::Task>> TasksOf(std::span<const network::Section> way,
@@ -149,6 +169,10 @@ class NetworkRegistry {
                                                       const std::string& by,
                                                       std::int64_t now_unix_ms);
   [[nodiscard]] Result<std::vector<std::string>> Forget(const std::string& name);
+  [[nodiscard]] Result<std::vector<std::string>> SetCharge(
+      const std::optional<network::ChargeLimits>& limits);
+  // Takes the docks there from the robots that hold them, and returns a line on each.
+  [[nodiscard]] Result<std::vector<std::string>> VacateDocks(const network::Condition& where);
   [[nodiscard]] Result<std::vector<std::string>> Narrow(network::Lane lane, const std::string& by,
                                                         std::int64_t now_unix_ms);
   // A robot that reverses would meet those that come the other way, so the section becomes a mutex
@@ -216,9 +240,13 @@ class NetworkRegistry {
   std::vector<network::Junction> junctions_;          // of revisions: "ID/TEACHING"
   std::vector<network::Condition> conditions_;        // of routes: "ID"
   std::map<std::string, network::NamedPlace> named_;  // of revisions
-  std::vector<store::ProposedJunction> proposed_;     // of revisions
-  std::vector<store::KeptLane> lanes_;                // of routes
+  std::map<std::string, std::set<AgentId>> dock_holders_;
+  std::optional<network::ChargeLimits> charge_limits_;
+  std::vector<network::Charging> charging_;
+  std::vector<store::ProposedJunction> proposed_;  // of revisions
+  std::vector<store::KeptLane> lanes_;             // of routes
   std::set<AgentId> vacated_;
+  std::set<AgentId> sent_off_;
   FollowedLately followed_;
   std::vector<FollowedLately::Poor> poor_;  // sections by which paths are planned
   std::set<std::string> searched_;          // revisions

@@ -51,6 +51,7 @@ class NetworkList {
   std::vector<Route> routes_;  // sorted by name
   std::map<std::string, std::size_t> numbers_;
   std::vector<Mark> marks_;
+  std::vector<std::string> of_fleet_;  // when robots charge, and which ones do
   std::size_t junctions_ =
       0;  // number of junctions, including those of routes that no longer exist
   bool whole_;

@@ -23,6 +23,7 @@ struct NamedPlace {
   std::string name{};
   Place place{};
   bool home = false;  // one of the places to which "home" leads
+  bool dock = false;  // robots charge there, one at a time
   bool operator==(const NamedPlace&) const = default;
 };
 

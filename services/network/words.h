@@ -29,15 +29,29 @@ namespace trailcast::network {
 //                              several routes lead through
 //   wide ROUTE [FROM..TO]      removes each narrow place that has a part there
 //   vacate ROUTE [FROM..TO]    releases such a place by force from the robot that holds it
-//   name NAME PLACE [home]     names a place; the name moves if another place had it; with "home",
-//                              it is one of the places to which the goal "home" leads
+//   name NAME PLACE [home] [dock]
+//                              names a place; the name moves if another place had it; with "home",
+//                              it is one of the places to which the goal "home" leads; with "dock",
+//                              robots charge there, one at a time
 //   forget NAME
+//   charge below PERCENT [until PERCENT]
+//                              robots with less battery go to a dock after their mission, and go on
+//                              with their queue at the second percentage, which is 90 if it is
+//                              missing
+//   charge never               robots are not sent to docks by themselves, which is the default
 //   confirm PLACE PLACE        makes the junction that the server proposes there
 //   confirm all [above F]      makes all proposed ones, or those of at least this confidence
 //   refuse PLACE PLACE         drops the proposal, and does not make it again
 //   refuse all [below F]
 // A PLACE is ROUTE@METRES. A ROUTE is a name or id, with @REVISION behind it unless it is the
 // followed one. FROM..TO is in metres along it, and either may be missing.
+struct ChargeLimits {
+  static constexpr int kUsualUntil_percent = 90;
+  int below_percent = 0;
+  int until_percent = kUsualUntil_percent;  // above the first
+  bool operator==(const ChargeLimits&) const = default;
+};
+
 struct Edit {
   enum class Kind {
     kJoin,
@@ -52,6 +66,7 @@ struct Edit {
     kVacate,
     kName,
     kForget,
+    kCharge,
     kConfirm,
     kRefuse
   };
@@ -59,8 +74,9 @@ struct Edit {
   Junction junction{};  // of kJoin and kPart; of kConfirm and kRefuse without `all`
   // This is of kClose, kOpen, kBack, kAhead and kLimit. It is the section of kWide and kVacate.
   Condition condition{};
-  Lane lane{};         // of kNarrow
-  NamedPlace named{};  // of kName; only the name of kForget
+  Lane lane{};                           // of kNarrow
+  NamedPlace named{};                    // of kName; only the name of kForget
+  std::optional<ChargeLimits> charge{};  // of kCharge; empty for never
   struct Sure {
     double least = 0.0;
     double most = 1.0;
@@ -87,6 +103,13 @@ struct LostSection {
   bool operator==(const LostSection&) const = default;
 };
 
+// This tells that a robot charges, or why it does not yet.
+struct Charging {
+  std::string robot{};
+  std::string text{};  // one line for people
+  bool operator==(const Charging&) const = default;
+};
+
 // This is the end of a condition that ends where its route does.
 inline constexpr double kToTheEnd_m = 1e7;
 
@@ -94,15 +117,17 @@ inline constexpr double kToTheEnd_m = 1e7;
 [[nodiscard]] Result<Edit> ParseEdit(std::string_view words);
 
 // This is a line of what a server lists: a route that it names, "route ROUTE METRES"; what holds,
-// as the edit that brings it about; what it proposes; or where robots were lost. It is empty for a
-// line that a later version may have.
+// as the edit that brings it about; what it proposes; where robots were lost; or which robots
+// charge. It is empty for a line that a later version may have.
 struct Listed {
   bool used = true;              // false if robots do not follow its revision
   std::optional<Route> route{};  // with its name and length
   std::optional<Edit> edit{};
   std::optional<Proposal> proposal{};  // "proposed join PLACE PLACE .. confidence F"
   std::optional<LostSection> lost{};   // "lost ROUTE FROM..TO N of M cost F"
-  // These robots are in a narrow place: "narrow .., taken by robot1 robot2".
+  std::optional<Charging> charging{};  // "charging ROBOT WORDS"
+  // These robots are in a narrow place or at a dock, or are on their way to the dock:
+  // "narrow .., taken by robot1 robot2".
   std::vector<std::string> taken_by{};
 };
 [[nodiscard]] Listed ParseListed(std::string_view line);
@@ -138,6 +163,8 @@ struct Question {
 [[nodiscard]] std::string ToText(const Proposal& proposal);  // "proposed join .."
 [[nodiscard]] std::string ToText(const Lane& lane);          // "narrow .."
 [[nodiscard]] std::string ToText(const LostSection& lost);   // "lost .."
+[[nodiscard]] std::string ToText(const std::optional<ChargeLimits>& charge);  // "charge .."
+[[nodiscard]] std::string ToText(const Charging& charging);                   // "charging .."
 // Returns text for people: "lost hall 5..10 2 of 7 times lately, a metre counts as 1.9".
 [[nodiscard]] std::string Describe(const LostSection& lost);
 

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -45,10 +47,10 @@ struct FollowedSection {
 
 // Keeps the network in a SQLite file of its own, created if missing: junctions, conditions on
 // sections and names of places as operators set them, proposed junctions, holders of mutex zones,
-// and how sections were followed. A call's data is on the disk when it returns. The caller decides
-// which routes places and conditions name. Errors name the file: kUnavailable (disk full, no such
-// folder, too many), kConflict (another process has it open), kCorrupt (not our file, or a damaged
-// one).
+// robots at docks, when robots charge, and how sections were followed. A call's data is on the disk
+// when it returns. The caller decides which routes places and conditions name. Errors name the
+// file: kUnavailable (disk full, no such folder, too many), kConflict (another process has it
+// open), kCorrupt (not our file, or a damaged one).
 class NetworkStore {
  public:
   static constexpr std::int64_t kMostJunctions = 100'000;
@@ -75,6 +77,10 @@ class NetworkStore {
   [[nodiscard]] Result<std::vector<std::string>> Searched();
   [[nodiscard]] Result<std::vector<KeptLane>> Lanes();
   [[nodiscard]] Result<std::vector<FollowedSection>> Followed();  // the oldest first
+  // Returns the robots that are at each dock, or on their way there, by its name.
+  [[nodiscard]] Result<std::map<std::string, std::set<AgentId>>> DockHolders();
+  // Returns when robots charge, or nothing if they are not sent to.
+  [[nodiscard]] Result<std::optional<network::ChargeLimits>> Charge();
 
   // Replaces the junction from and to the same places. `by` says who decided it; the time is by the
   // caller's clock.
@@ -96,6 +102,8 @@ class NetworkStore {
   [[nodiscard]] Result<void> Put(std::span<const ProposedJunction> proposed, const std::string& by,
                                  std::int64_t now_unix_ms);
   [[nodiscard]] Result<void> MarkSearched(std::span<const std::string> revisions);
+  [[nodiscard]] Result<void> HoldDock(const std::string& name, const std::set<AgentId>& holders);
+  [[nodiscard]] Result<void> Put(const std::optional<network::ChargeLimits>& charge);
   // Adds a mutex zone and returns its number.
   [[nodiscard]] Result<std::int64_t> Put(const network::Lane& lane, const std::string& by,
                                          std::int64_t now_unix_ms);

@@ -35,6 +35,8 @@ class Reader {
           Mark(part.route, {NetworkPicture::Part::kNarrow, part.from_m, part.to_m});
         }
         return;
+      case Edit::Kind::kCharge:
+        return;
       default:
         return Mark(edit.condition.route, {edit.condition.closed   ? NetworkPicture::Part::kClosed
                                            : edit.condition.backed ? NetworkPicture::Part::kBacked

@@ -49,8 +49,13 @@ NetworkList::NetworkList(const std::vector<std::string>& lines, bool whole) : wh
       if (const auto at = Find(listed.lost->route))
         marks_.push_back({Kind::kLost, *at, *at, *line});
     }
+    if (listed.charging) of_fleet_.push_back(*line);
     if (!listed.edit) continue;
     const Edit& edit = *listed.edit;
+    if (edit.kind == Edit::Kind::kCharge) {
+      of_fleet_.push_back(*line);
+      continue;
+    }
     if (edit.kind == Edit::Kind::kJoin) {
       ++junctions_;
       TakeJunction(Kind::kJunction, edit.junction, *line);
@@ -135,7 +140,7 @@ std::string NetworkList::Body(const NetworkQuery& query) const {
   const std::size_t matched = found.size();
   found.resize(std::min<std::size_t>(found.size(), query.limit));
   std::vector<bool> shown(routes_.size(), false);
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = of_fleet_;
   for (const std::size_t i : found) {
     shown[i] = true;
     lines.push_back(routes_[i].line);

@@ -171,6 +171,8 @@ std::string NetworkText(const Lines& lines) {
       text += line + " m\n";
     } else if (listed.lost) {
       text += network::Describe(*listed.lost) + "\n";
+    } else if (listed.charging) {
+      text += listed.charging->robot + " " + listed.charging->text + "\n";
     } else if (!listed.used) {
       text += line.substr(network::kUnused.size()) +
               "   (not used: robots follow another revision, or none)\n";
@@ -183,12 +185,13 @@ std::string NetworkText(const Lines& lines) {
 
 Json NetworkJson(const Lines& lines) {
   Json network;
-  for (const char* name :
-       {"routes", "joints", "closed", "backed", "limits", "narrow", "names", "proposed", "lost"}) {
+  for (const char* name : {"routes", "joints", "closed", "backed", "limits", "narrow", "names",
+                           "proposed", "lost", "charging"}) {
     network[name] = Json::array();
   }
+  network["charge"] = nullptr;
   for (const std::string& line : lines) {
-    const auto [used, route, edit, proposal, lost, taken_by] = network::ParseListed(line);
+    const auto [used, route, edit, proposal, lost, charging, taken_by] = network::ParseListed(line);
     if (route) {
       network["routes"].push_back(
           {{"route", route->name}, {"length_m", Rounded(route->length_m, 100.0)}});
@@ -198,6 +201,9 @@ Json NetworkJson(const Lines& lines) {
                                          Rounded(proposal->confidence, 100.0)));
     }
     if (lost) network["lost"].push_back(LostJson(*lost));
+    if (charging) {
+      network["charging"].push_back({{"robot", charging->robot}, {"text", charging->text}});
+    }
     if (!edit) continue;
     if (edit->kind == network::Edit::Kind::kJoin) {
       network["joints"].push_back(With(JunctionJson(edit->junction), "used", used));
@@ -207,7 +213,14 @@ Json NetworkJson(const Lines& lines) {
       network["names"].push_back({{"name", edit->named.name},
                                   {"place", PlaceJson(edit->named.place)},
                                   {"home", edit->named.home},
+                                  {"dock", edit->named.dock},
+                                  {"taken_by", taken_by},
                                   {"used", used}});
+    } else if (edit->kind == network::Edit::Kind::kCharge) {
+      if (edit->charge) {
+        network["charge"] = {{"below_percent", edit->charge->below_percent},
+                             {"until_percent", edit->charge->until_percent}};
+      }
     } else {
       const network::Condition& condition = edit->condition;
       network[condition.closed   ? "closed"

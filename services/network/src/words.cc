@@ -23,15 +23,17 @@ constexpr const char* kEdits =
     "'limit ROUTE [FROM..TO] [speed F] [cost F]', "
     "'narrow ROUTE FROM..TO [ROUTE FROM..TO ...]', 'wide ROUTE [FROM..TO]', 'vacate ROUTE "
     "[FROM..TO]', "
-    "'name NAME PLACE [home]', 'forget NAME', 'confirm PLACE PLACE', 'confirm all [above F]', "
-    "'refuse "
-    "PLACE PLACE' or 'refuse all [below F]'";
+    "'name NAME PLACE [home] [dock]', 'forget NAME', 'charge below PERCENT [until PERCENT]', "
+    "'charge never', 'confirm PLACE PLACE', 'confirm all [above F]', 'refuse PLACE PLACE' or "
+    "'refuse all [below F]'";
 constexpr std::size_t kLongestName = 64;
 constexpr std::string_view kRoute = "route ";
 constexpr std::string_view kProposed = "proposed ";
 constexpr std::string_view kConfidence = " confidence ";
 constexpr std::string_view kLost = "lost ";
+constexpr std::string_view kCharging = "charging ";
 constexpr std::string_view kHome = "home";  // behind a name: robots are at home there
+constexpr std::string_view kDock = "dock";  // likewise: robots charge there
 
 // Writes metres to the centimetre.
 std::string Metres(double metres) {
@@ -127,11 +129,39 @@ Result<Edit> TakeName(Words& words, Edit::Kind kind) {
     if (!place) return tl::unexpected(place.error());
     edit.named.place = *std::move(place);
     edit.named.home = words.TakeIf(kHome);
+    edit.named.dock = words.TakeIf(kDock);
   }
-  if (!words.empty()) {
-    const bool names = kind == Edit::Kind::kName && !edit.named.home;
-    return Wrong(words.Next(), names ? "'home' or nothing more" : "nothing more");
+  if (words.empty()) return edit;
+  if (kind == Edit::Kind::kForget || edit.named.dock) return Wrong(words.Next(), "nothing more");
+  return Wrong(words.Next(),
+               edit.named.home ? "'dock' or nothing more" : "'home', 'dock' or nothing more");
+}
+
+Result<int> TakePercent(Words& words, int least, int most) {
+  const std::string_view word = words.Take();
+  const auto percent = ParseNumber<int>(word);
+  if (percent && *percent >= least && *percent <= most) return *percent;
+  return Wrong(word, fmt::format("per cent of a battery, {} to {}", least, most));
+}
+
+// Parses below PERCENT [until PERCENT], or never.
+Result<Edit> TakeCharge(Words& words) {
+  Edit edit{.kind = Edit::Kind::kCharge};
+  if (words.TakeIf("below")) {
+    auto below = TakePercent(words, 1, 99);
+    if (!below) return tl::unexpected(below.error());
+    edit.charge =
+        ChargeLimits{.below_percent = *below,
+                     .until_percent = std::max(*below + 1, ChargeLimits::kUsualUntil_percent)};
+    if (words.TakeIf("until")) {
+      auto until = TakePercent(words, *below + 1, 100);
+      if (!until) return tl::unexpected(until.error());
+      edit.charge->until_percent = *until;
+    }
+  } else if (!words.TakeIf("never")) {
+    return Wrong(words.Next(), "'below PERCENT [until PERCENT]' or 'never'");
   }
+  if (!words.empty()) return Wrong(words.Next(), "nothing more");
   return edit;
 }
 
@@ -221,6 +251,7 @@ Result<Edit> ParseEdit(std::string_view text) {
   if (words.TakeIf("refuse")) return TakeVerdict(words, Edit::Kind::kRefuse);
   if (words.TakeIf("name")) return TakeName(words, Edit::Kind::kName);
   if (words.TakeIf("forget")) return TakeName(words, Edit::Kind::kForget);
+  if (words.TakeIf("charge")) return TakeCharge(words);
   if (words.TakeIf("narrow")) {
     auto lane = TakeLane(words);
     if (!lane) return tl::unexpected(lane.error());
@@ -305,6 +336,13 @@ Listed ParseListed(std::string_view line) {
     listed.lost = ParseLost(line.substr(kLost.size()));
     return listed;
   }
+  if (line.starts_with(kCharging)) {
+    line.remove_prefix(kCharging.size());
+    const std::size_t blank = line.find(' ');
+    if (blank == std::string_view::npos) return listed;
+    listed.charging = {std::string(line.substr(0, blank)), std::string(line.substr(blank + 1))};
+    return listed;
+  }
   listed.used = !line.starts_with(kUnused);
   if (!listed.used) line.remove_prefix(kUnused.size());
   if (const std::size_t at = line.find(kTakenBy); at != std::string_view::npos) {
@@ -355,8 +393,20 @@ std::string ToText(const Route& route) {
 }
 
 std::string ToText(const NamedPlace& named) {
-  return fmt::format("name {} {}{}{}", named.name, ToText(named.place), named.home ? " " : "",
-                     named.home ? kHome : "");
+  std::string text = fmt::format("name {} {}", named.name, ToText(named.place));
+  for (const auto& [is, kind] : {std::pair(named.home, kHome), std::pair(named.dock, kDock)}) {
+    if (is) text += fmt::format(" {}", kind);
+  }
+  return text;
+}
+
+std::string ToText(const std::optional<ChargeLimits>& charge) {
+  if (!charge) return "charge never";
+  return fmt::format("charge below {} until {}", charge->below_percent, charge->until_percent);
+}
+
+std::string ToText(const Charging& charging) {
+  return fmt::format("{}{} {}", kCharging, charging.robot, charging.text);
 }
 
 std::string ToText(const Junction& junction) {

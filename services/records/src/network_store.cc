@@ -107,6 +107,16 @@ CREATE TABLE backed_stretch (
                                .called = "store of the network",
                                .added = R"(
 CREATE TABLE IF NOT EXISTS home (name TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS dock (name TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS dock_holder (
+  dock TEXT NOT NULL,
+  agent TEXT NOT NULL,
+  PRIMARY KEY (dock, agent)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS charge (
+  below_percent INTEGER NOT NULL,
+  until_percent INTEGER NOT NULL
+) STRICT;
 )"};
 
 }  // namespace

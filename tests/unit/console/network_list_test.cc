@@ -69,6 +69,22 @@ TEST(NetworkListTest, OfAllRoutesThereIsAllThatIsOnThemAndBetweenThem) {
   EXPECT_EQ(all["elsewhere"], json::array());
 }
 
+TEST(NetworkListTest, WhenRobotsChargeAndWhichDoIsInEachPart) {
+  const NetworkList list(
+      {"route hall 20.00", "route yard 30.00", "name dock1 hall@2 dock, taken by robot1",
+       "charge below 20 until 90", "charging robot1 charges at dock1"},
+      true);
+  for (const char* search : {"hall", "attic"}) {
+    const json network = Part(list, {.search = search})["network"];
+    EXPECT_EQ(network["charge"], json({{"below_percent", 20}, {"until_percent", 90}}));
+    EXPECT_EQ(network["charging"],
+              json::parse(R"([{"robot": "robot1", "text": "charges at dock1"}])"));
+  }
+  const json dock = Part(list)["network"]["names"][0];
+  EXPECT_EQ(dock["dock"], true);
+  EXPECT_EQ(dock["taken_by"], json({"robot1"}));
+}
+
 TEST(NetworkListTest, ASearchIsInNamesOfRoutesAndOfPlaces) {
   EXPECT_THAT(RoutesOf(Part(ThreeRoutes(), {.search = "OFF"})), ElementsAre("Office"));
   EXPECT_THAT(RoutesOf(Part(ThreeRoutes(), {.search = "bay"})), ElementsAre("yard"));

@@ -115,6 +115,9 @@ TEST(NetworkTexts, AreForPeopleAndForPrograms) {
   EXPECT_EQ(json["lost"].dump(), R"([{"route":"hall","from_m":5.0,"to_m":10.0,"passed":7.5,)"
                                  R"("lost":2.0,"cost":1.8}])");
   EXPECT_EQ(json["names"].dump(), "[]");
+  EXPECT_EQ(json["charge"].dump(), "null");
+  EXPECT_THAT(NetworkText({"charge below 20 until 90", "charging robot1 charges at dock1"}),
+              testing::StrEq("charge below 20 until 90\nrobot1 charges at dock1\n"));
   EXPECT_THAT(NetworkText({}), HasSubstr("no routes are joined"));
 
   const std::vector<std::string> way{"follow hall 2..12", "follow office ..8.5 speed 0.5"};

@@ -83,8 +83,35 @@ TEST(NetworkWords, WhatIsNotUnderstoodIsNamed) {
   EXPECT_THAT(Why("name loading bay office@8"), HasSubstr("'bay'"));
   EXPECT_THAT(Why("name " + std::string(65, 'x') + " office@8"), HasSubstr("up to 64"));
   EXPECT_THAT(Why("forget bay office@8"), HasSubstr("nothing more"));
-  EXPECT_THAT(Why("name dock office@8 away"), HasSubstr("'away': expected 'home' or nothing more"));
-  EXPECT_THAT(Why("name dock office@8 home home"), HasSubstr("expected nothing more"));
+  EXPECT_THAT(Why("name dock office@8 away"),
+              HasSubstr("'away': expected 'home', 'dock' or nothing more"));
+  EXPECT_THAT(Why("name dock office@8 home home"), HasSubstr("expected 'dock' or nothing more"));
+  EXPECT_THAT(Why("name dock office@8 dock home"), HasSubstr("expected nothing more"));
+  EXPECT_THAT(Why("charge"), HasSubstr("expected 'below PERCENT [until PERCENT]' or 'never'"));
+  EXPECT_THAT(Why("charge below 0"), HasSubstr("'0': expected per cent of a battery, 1 to 99"));
+  EXPECT_THAT(Why("charge below 40 until 40"),
+              HasSubstr("'40': expected per cent of a battery, 41"));
+  EXPECT_THAT(Why("charge below 20 until 101"), HasSubstr("'101': expected"));
+  EXPECT_THAT(Why("charge never again"), HasSubstr("'again': expected nothing more"));
+}
+
+TEST(NetworkWords, RobotsChargeAtDocksBelowALimit) {
+  const auto usual = ParseEdit("charge below 20");
+  ASSERT_TRUE(usual && usual->charge);
+  EXPECT_EQ(ToText(usual->charge), "charge below 20 until 90");
+  const auto high = ParseEdit("charge below 95");
+  ASSERT_TRUE(high && high->charge);
+  EXPECT_EQ(high->charge->until_percent, 96);
+  const auto never = ParseEdit("charge never");
+  ASSERT_TRUE(never);
+  EXPECT_EQ(ToText(never->charge), "charge never");
+  const auto dock = ParseListed("name dock1 office@8 home dock, taken by robot1 robot2");
+  ASSERT_TRUE(dock.edit);
+  EXPECT_EQ(ToText(dock.edit->named), "name dock1 office@8 home dock");
+  EXPECT_THAT(dock.taken_by, ElementsAre("robot1", "robot2"));
+  const auto charges = ParseListed(ToText(Charging{"robot1", "charges at dock1"})).charging;
+  EXPECT_EQ(charges, (Charging{"robot1", "charges at dock1"}));
+  EXPECT_FALSE(ParseListed("charging").charging);
 }
 
 TEST(NetworkWords, ANamedPlaceMayBeAHome) {

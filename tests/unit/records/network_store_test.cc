@@ -141,6 +141,29 @@ TEST_F(NetworkStoreTest, ANameIsThatOfOnePlace) {
   EXPECT_THAT(store_->Names().value(), ElementsAre(NamedPlace{"dock", {"b/7", 3.0}}));
 }
 
+TEST_F(NetworkStoreTest, KeepsDocksWhoIsThereAndWhenRobotsCharge) {
+  using network::NamedPlace;
+  const NamedPlace dock{"dock1", {"a/1", 2.5}, false, true};
+  ASSERT_TRUE(store_->Put(dock, "desk", 1000));
+  ASSERT_TRUE(store_->HoldDock("dock1", {AgentId("robot1"), AgentId("robot2")}));
+  EXPECT_FALSE(store_->Charge().value());
+  ASSERT_TRUE(store_->Put(network::ChargeLimits{10, 80}));
+  ASSERT_TRUE(store_->Put(network::ChargeLimits{20, 90}));
+  ASSERT_TRUE(store_->Put(dock, "desk", 2000)) << "whoever is there stays";
+  Reopen();
+  EXPECT_THAT(store_->Names().value(), ElementsAre(dock));
+  EXPECT_THAT(store_->DockHolders().value().at("dock1"),
+              ElementsAre(AgentId("robot1"), AgentId("robot2")));
+  EXPECT_EQ(store_->Charge().value(), (network::ChargeLimits{20, 90}));
+  ASSERT_TRUE(store_->HoldDock("dock1", {AgentId("robot2")}));
+  EXPECT_THAT(store_->DockHolders().value().at("dock1"), ElementsAre(AgentId("robot2")));
+  ASSERT_TRUE(store_->Forget("dock1"));
+  ASSERT_TRUE(store_->Put(std::optional<network::ChargeLimits>()));
+  Reopen();
+  EXPECT_THAT(store_->DockHolders().value(), testing::IsEmpty());
+  EXPECT_FALSE(store_->Charge().value());
+}
+
 TEST_F(NetworkStoreTest, AnotherFileIsLeftAlone) {
   EXPECT_EQ(NetworkStore::Open(file_).error().code, ErrorCode::kConflict) << "it is open";
   ASSERT_TRUE(MissionStore::Open(folder_ / "missions"));

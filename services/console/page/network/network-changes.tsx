@@ -75,13 +75,18 @@ export function ChangeStretch({ draft, onDraft, onEdit, routes }: Edits & { rout
 
 export function NamePlace({ draft, onDraft, onEdit, routes }: Edits & { routes: string[] }) {
   const names = useRouteNames(routes, draft.place);
+  const [home, setHome] = useState(false);
+  const [dock, setDock] = useState(false);
   const [name, place] = [draft.name.trim(), draft.place.trim()];
+  const kinds = (home ? ' home' : '') + (dock ? ' dock' : '');
   return (
     <div className="net-fields">
       <Field label="Place (click there, or ROUTE@METRES)" list="net-starts" value={draft.place} onChange={(value) => onDraft({ ...draft, place: value })} />
       <datalist id="net-starts">{names.map((each) => <option key={each} value={`${each}@`} />)}</datalist>
       <Field label="Is called" value={draft.name} onChange={(value) => onDraft({ ...draft, name: value })} />
-      <button disabled={!name || !place} onClick={() => onEdit(`name ${name} ${place}`)}>Name it</button>
+      <label className="net-check" title="Robots that are sent home go to the nearest"><input type="checkbox" checked={home} onChange={(event) => setHome(event.target.checked)} />a home</label>
+      <label className="net-check" title="Robots charge there, one at a time"><input type="checkbox" checked={dock} onChange={(event) => setDock(event.target.checked)} />a dock</label>
+      <button disabled={!name || !place} onClick={() => onEdit(`name ${name} ${place}${kinds}`)}>Name it</button>
       <button disabled={!name} onClick={() => onEdit(`forget ${name}`)}>Forget the name</button>
     </div>
   );

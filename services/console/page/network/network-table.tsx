@@ -75,7 +75,7 @@ const Line = memo(function Line({ row, isChosen, onChoose, onAround, onEdit }: O
       <td data-label="Places">
         <ul className="plain">
           {row.names.map((named) => (
-            <li key={named.name}>{named.name} at {metres(named.along_m)} m{named.home ? ', a home' : ''}{named.used ? '' : ' (of another revision)'} {take('Forget', named.name, `forget ${named.name}`)}</li>
+            <li key={named.name}>{named.name} at {metres(named.along_m)} m{named.home ? ', a home' : ''}{named.dock ? ', a dock' : ''}{named.taken_by.length > 0 && `, taken by ${named.taken_by.join(' and ')}`}{named.used ? '' : ' (of another revision)'} {take('Forget', named.name, `forget ${named.name}`)}</li>
           ))}
         </ul>
       </td>

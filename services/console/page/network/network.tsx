@@ -1,6 +1,7 @@
 import { useCallback, useEffect, useMemo, useState } from 'react';
 import { editNetwork, type Answer, type NetworkPart, type Place, type Robot, type Route, type Way } from '../api';
 import { useMay } from '../me';
+import { Charging } from './charging';
 import { ChangeStretch, JoinPlaces, NamePlace, noDraft, type Draft } from './network-changes';
 import { layOut, metres, standsHow, textOf, withRobots } from './network-layout';
 import { NetworkMap, type Overlay } from './network-map';
@@ -160,6 +161,7 @@ export function NetworkPage({ robots, live }: { robots: Robot[]; live: Route[] }
           {answer && (answer.ok ? '' : '⚠ ') + answer.text}
         </p>
       </section>
+      {part && <Charging network={part.network} onEdit={mayOperate ? edit : null} />}
       {rows.length > 0 && (
         <NetworkTable rows={rows} chosen={chosen} onChoose={setChosen} onAround={around} onEdit={mayOperate ? edit : null} />
       )}
