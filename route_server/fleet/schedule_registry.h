@@ -89,7 +89,7 @@ class ScheduleRegistry {
                                                        std::int64_t now_unix_ms);
   [[nodiscard]] Result<void> Add(schedule::Schedule schedule, const std::string& by,
                                  std::int64_t now_unix_ms);
-  // What was sent before stays known, and times that have passed are not missed.
+  // The missions that it sent stay known, and times that have passed are not missed.
   [[nodiscard]] Result<void> Replace(Entry& entry, schedule::Schedule schedule,
                                      const std::string& by, std::int64_t now_unix_ms);
   [[nodiscard]] Result<void> Pause(Entry& entry, const std::string& by);

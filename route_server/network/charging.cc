@@ -187,7 +187,7 @@ void Charging::Look(const AgentId& agent, Robot& robot, Time now, std::int64_t n
   }
 }
 
-// What follows a mission that did not arrive waits until a person has looked, and so does this.
+// A person looks after a mission that did not arrive before its robot is sent on, also to charge.
 void Charging::Send(const AgentId& agent, Time now, std::int64_t now_unix_ms) {
   const mission::Record* last = missions_.LastEnded(agent);
   const bool arrived = last == nullptr || last->last.state == mission::State::kArrived;

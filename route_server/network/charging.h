@@ -15,7 +15,7 @@
 namespace trailcast::server {
 
 // Sends robots whose battery is low to a free dock once their present mission has ended, and has
-// their queues go on once they are charged. What it decides is in charging_rules.h. A mission to
+// their queues go on once they are charged. Its decisions are in charging_rules.h. A mission to
 // charge is one of its robot's queue, before the others, so that operators see it, hold it and
 // cancel it as they do others. It has no clock of its own.
 class Charging {
@@ -74,7 +74,7 @@ class Charging {
   NewestMap<AgentId, Robot> robots_{MissionRegistry::kMostAgents};
   bool was_on_ = false;  // robots were sent to charge
   std::optional<Time> look_at_{};
-  // What cannot be done is tried again.
+  // Each second it tries again, and would say the same.
   ToldLately told_{std::chrono::milliseconds(60'000)};
   std::vector<std::string> troubles_;
 };

@@ -37,6 +37,7 @@ constexpr Row kRows[] = {
     {"GET", "/api/network", Role::kLook},
     {"GET", "/api/network/way", Role::kLook},
     {"GET", "/api/schedules", Role::kLook},
+    {"GET", "/api/schedules/calendar", Role::kLook},
     {"GET", "/api/photos", Role::kLook},
     {"GET", "/api/photos.tar", Role::kLook},
     {"GET", "/api/photos/*", Role::kLook},
