@@ -144,8 +144,8 @@ std::string ReasonIfAny(const std::string& body) {
 }
 
 Result<SendBody> ReadSend(const std::string& body, bool has_to) {
-  std::set<std::string> names{"orders",  "id",            "valid_s", "goes_on",
-                              "unheard", "photo_every_m", "photo_at"};
+  std::set<std::string> names{"orders",        "id",      "valid_s", "goes_on", "unheard",
+                              "photo_every_m", "photo_at"};
   if (has_to) names.insert("to");
   const auto json = ReadObject(body, names);
   if (!json) return tl::unexpected(json.error());
