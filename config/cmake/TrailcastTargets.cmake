@@ -71,7 +71,11 @@ set(trailcast_headers <algorithm> <array> <chrono> <cmath> <cstdint> <deque> <fi
 
 # Tests are optimised little, which takes much less time; what they test is optimised all the same.
 function(trailcast_compile_as_test target)
-  target_compile_options(${target} PRIVATE $<IF:$<BOOL:${TRAILCAST_SANITIZE}>,-O0,$<$<CONFIG:Release>:-O1>>)
+  if(TRAILCAST_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0)
+  else()
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
 endfunction()
 
 # trailcast_precompile(<kind> HEADERS <h>... DEPS x): the headers as sources of this kind see them.
