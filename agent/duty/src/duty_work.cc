@@ -451,13 +451,13 @@ void Duty::Done(const std::string& what) {
 std::string Duty::PhotosText() const {
   const auto& current = *mission_handler_.current();
   if (!current.photos.any() || !photo_taker_) return "";
-  if (photos_before_) return fmt::format("{} photos since its agent started again", photos_taken_);
+  if (photos_before_) return fmt::format("{} photos taken since its agent started again", photos_taken_);
   std::vector<std::string> missing;
   for (const mission::PhotoPlace& place : current.photos.at) {
     std::string words = ToText(place);
     if (!photographed_.contains(words)) missing.push_back(std::move(words));
   }
-  std::string text = fmt::format("{} photos", photos_taken_);
+  std::string text = fmt::format("{} photos taken", photos_taken_);
   if (!missing.empty()) text += fmt::format(", none at {}", fmt::join(missing, ", "));
   return text;
 }

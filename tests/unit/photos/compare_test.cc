@@ -63,7 +63,7 @@ TEST(Compare, MarksWhatHasGoneAndWhatHasCome) {
   GrayImage before = wall.Photograph(Before());
   GrayImage now = wall.Photograph(Now());
   Fill(before, {290, 220, 60, 40}, 250);
-  Fill(now, {480, 330, 50, 70}, 5);
+  Fill(now, {480, 330, 50, 70}, 250);
   const auto compared = Compare(before, now);
   ASSERT_TRUE(compared) << compared.error().message;
   ASSERT_THAT(compared->changes, SizeIs(2));
