@@ -121,7 +121,7 @@ void MissionRegistry::NoteWaited(Waiting& record) {
 
 Result<void> MissionRegistry::Direct(const mission::Record& waiting, const std::string& goal) {
   const AgentId agent = waiting.mission.agent;
-  const std::string orders = OrdersWithoutWay(goal);
+  const std::string orders = OrdersWithoutWay({.to = goal});
   for (Waiting& each : unanswered_.at(agent)) {
     if (each.mission.id != waiting.mission.id || each.mission.orders == orders) continue;
     const auto stored = store_->Amend(agent, each.mission.id, orders);

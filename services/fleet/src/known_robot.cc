@@ -15,8 +15,9 @@ namespace trailcast::fleet {
 
 Error UnknownRobot(const std::string& name, std::vector<std::string> robots) {
   if (mission::IsGroup(name)) {
-    std::transform(robots.begin(), robots.end(), robots.begin(),
-                   [](const std::string& robot) { return "@" + mission::GroupOf(robot); });
+    std::transform(robots.begin(), robots.end(), robots.begin(), [](const std::string& robot) {
+      return fmt::format("@{}", mission::GroupOf(robot));
+    });
     std::sort(robots.begin(), robots.end());
     robots.erase(std::unique(robots.begin(), robots.end()), robots.end());
     return {ErrorCode::kNotFound,
