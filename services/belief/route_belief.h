@@ -42,7 +42,7 @@ struct RouteBeliefOptions {
   // All numbers of agreeing features below are of a view with so many features. The more it has,
   // the more of them agree by chance: their number grows with this power.
   double features = 40.0;
-  double chance_grows = 2.0 / 3.0;
+  double chance_grows = 0.7;
   // The log-likelihood ratio of being at a view, against being off the route, depends on how many
   // features agree. It rises by `gain` a feature from zero at `neutral`, within bounds: a view that
   // nothing agrees with does not prove that the robot is elsewhere, since a person may stand before
@@ -147,19 +147,18 @@ class RouteBelief {
   // This is a view with its agreeing features as of one with so many features as options_ has them.
   struct Counted {
     std::size_t view = 0;
-    double agreed = 0.0;
+    int agreed = 0;
     double log_scale = 0.0;
   };
   [[nodiscard]] Counted Count(const ComparedView& view) const;
   struct Neighbours;
   [[nodiscard]] std::size_t cells() const { return witnesses_.front().grid().cells().size(); }
   [[nodiscard]] double each() const { return static_cast<double>(witnesses_.size()); }
-  [[nodiscard]] double Alike(double agreed, double best) const;
+  [[nodiscard]] double Alike(int agreed, int best) const;
   [[nodiscard]] double SizeFits(const Counted& view, double growth) const;
   [[nodiscard]] Neighbours NeighboursOf(std::size_t view) const;
-  void WeighCellsAbout(const Counted& view, double best, double independent, MovedGrid& grid);
-  void WeighCellsAbout(const TrackedPlace& tracked, double best, double independent,
-                       MovedGrid& grid);
+  void WeighCellsAbout(const Counted& view, int best, double independent, MovedGrid& grid);
+  void WeighCellsAbout(const TrackedPlace& tracked, int best, double independent, MovedGrid& grid);
   [[nodiscard]] CellGrid Together() const;
   void Hear(std::size_t witnesses);
   void SwitchWitnesses(double independent);
@@ -181,7 +180,7 @@ class RouteBelief {
   double off_ = 1.0;
   std::optional<double> start_;  // its stated place, until it is held somewhere
   Place place_;
-  std::deque<double> agreed_;  // at the likeliest place, in the last looks
+  std::deque<int> agreed_;  // at the likeliest place, in the last looks
   // For held places, this has the logarithm of the magnification, and how much of a new look it
   // was.
   std::deque<std::pair<double, double>> magnifications_;

@@ -31,8 +31,8 @@ double WeightedMedian(const std::deque<std::pair<double, double>>& values_and_we
   return sorted.back().first;
 }
 
-double Median(const std::deque<double>& values) {
-  std::vector<double> sorted(values.begin(), values.end());
+int Median(const std::deque<int>& values) {
+  std::vector<int> sorted(values.begin(), values.end());
   const auto middle = sorted.begin() + std::ssize(sorted) / 2;
   std::nth_element(sorted.begin(), middle, sorted.end());
   return *middle;
@@ -147,14 +147,14 @@ void RouteBelief::SwitchWitnesses(double independent) {
 RouteBelief::Counted RouteBelief::Count(const ComparedView& view) const {
   const double features = std::max(options_.features, static_cast<double>(view.features));
   const double each = std::pow(options_.features / features, options_.chance_grows);
-  return {view.view, each * view.agreed, view.log_scale};
+  return {view.view, static_cast<int>(std::lround(each * view.agreed)), view.log_scale};
 }
 
 // Returns the log-likelihood ratio of that many agreeing features: equation (6).
-double RouteBelief::Alike(double agreed, double best) const {
+double RouteBelief::Alike(int agreed, int best) const {
   const double ratio =
       std::clamp(options_.gain * (agreed - options_.neutral), options_.least, options_.most);
-  const double behind = options_.behind_best * (agreed - std::max(best, options_.neutral));
+  const double behind = options_.behind_best * (agreed - std::max<double>(best, options_.neutral));
   return ratio + std::max(options_.behind_best_least, behind);
 }
 
@@ -184,7 +184,7 @@ RouteBelief::Neighbours RouteBelief::NeighboursOf(std::size_t view) const {
 }
 
 // Between two views both count, and the nearer one counts more.
-void RouteBelief::WeighCellsAbout(const Counted& view, double best, double independent,
+void RouteBelief::WeighCellsAbout(const Counted& view, int best, double independent,
                                   MovedGrid& grid) {
   const double at = views_[view.view].at;
   const auto [first_here, next] = NeighboursOf(view.view);
@@ -215,7 +215,7 @@ void RouteBelief::WeighCellsAbout(const Counted& view, double best, double indep
 }
 
 // The weight falls with the distance, as between two views.
-void RouteBelief::WeighCellsAbout(const TrackedPlace& tracked, double best, double independent,
+void RouteBelief::WeighCellsAbout(const TrackedPlace& tracked, int best, double independent,
                                   MovedGrid& grid) {
   const double ratio = Alike(tracked.agreed, best);
   const std::size_t first = grid.CellOf(tracked.along - options_.window);
@@ -235,7 +235,7 @@ void RouteBelief::Weigh(std::span<const ComparedView> compared, double independe
   SwitchWitnesses(independent);
   std::vector<Counted> ordered;
   ordered.reserve(compared.size());
-  double best = tracked ? tracked->agreed : 0.0;
+  int best = tracked ? tracked->agreed : 0;
   for (const ComparedView& view : compared) {
     ordered.push_back(Count(view));
     best = std::max(best, ordered.back().agreed);
@@ -380,13 +380,11 @@ void RouteBelief::NoteLook(std::span<const Counted> counted, double independent,
   }
   if (nearest == nullptr) return;
   const bool is_tracked = tracked && std::abs(tracked->along - place_.along) <= options_.window;
-  agreed_.push_back(is_tracked ? std::max<double>(nearest->agreed, tracked->agreed)
-                               : nearest->agreed);
+  agreed_.push_back(is_tracked ? std::max(nearest->agreed, tracked->agreed) : nearest->agreed);
   if (agreed_.size() > options_.looks) agreed_.pop_front();
-  const double agreed = Median(agreed_);
-  place_.agreed = static_cast<int>(std::lround(agreed));
+  place_.agreed = Median(agreed_);
   const bool was_held = place_.held;
-  place_.held = place_.here >= options_.sure && agreed >= options_.least_agreed;
+  place_.held = place_.here >= options_.sure && place_.agreed >= options_.least_agreed;
   if (place_.held) start_.reset();
   NoteWay(was_held);
   if (place_.held && nearest->agreed >= options_.agreed_for_scale) {
