@@ -26,6 +26,7 @@ struct ComparedView {
   std::size_t view = 0;  // position among the route's key views
   int agreed = 0;        // features that look alike and that one magnification maps to their places
   double log_scale = 0.0;  // natural logarithm of that magnification, if there are enough of them
+  int features = 40;       // so many it has, any of which might have agreed
 };
 
 // This is other evidence of a place: so many tracked features lie where odometry and the taught
@@ -38,6 +39,10 @@ struct TrackedPlace {
 struct RouteBeliefOptions {
   double cell = 0.1;    // length of the grid's cells, in the route's units
   double window = 1.0;  // to either side of the likeliest place: all of it counts as one place
+  // All numbers of agreeing features below are of a view with so many features. The more it has,
+  // the more of them agree by chance: their number grows with this power.
+  double features = 40.0;
+  double chance_grows = 0.7;
   // The log-likelihood ratio of being at a view, against being off the route, depends on how many
   // features agree. It rises by `gain` a feature from zero at `neutral`, within bounds: a view that
   // nothing agrees with does not prove that the robot is elsewhere, since a person may stand before
@@ -139,13 +144,20 @@ class RouteBelief {
   [[nodiscard]] std::vector<std::size_t> WorthComparing(std::size_t near, std::size_t others);
 
  private:
+  // This is a view with its agreeing features as of one with so many features as options_ has them.
+  struct Counted {
+    std::size_t view = 0;
+    int agreed = 0;
+    double log_scale = 0.0;
+  };
+  [[nodiscard]] Counted Count(const ComparedView& view) const;
   struct Neighbours;
   [[nodiscard]] std::size_t cells() const { return witnesses_.front().grid().cells().size(); }
   [[nodiscard]] double each() const { return static_cast<double>(witnesses_.size()); }
   [[nodiscard]] double Alike(int agreed, int best) const;
-  [[nodiscard]] double SizeFits(const ComparedView& view, double growth) const;
+  [[nodiscard]] double SizeFits(const Counted& view, double growth) const;
   [[nodiscard]] Neighbours NeighboursOf(std::size_t view) const;
-  void WeighCellsAbout(const ComparedView& view, int best, double independent, MovedGrid& grid);
+  void WeighCellsAbout(const Counted& view, int best, double independent, MovedGrid& grid);
   void WeighCellsAbout(const TrackedPlace& tracked, int best, double independent, MovedGrid& grid);
   [[nodiscard]] CellGrid Together() const;
   void Hear(std::size_t witnesses);
@@ -155,11 +167,11 @@ class RouteBelief {
   struct Window;
   [[nodiscard]] Window WindowAbout(double middle) const;
   void Locate();
-  void NoteGrowth(std::span<const ComparedView> compared);
-  void NoteLook(std::span<const ComparedView> compared, double independent,
+  void NoteGrowth(std::span<const Counted> counted);
+  void NoteLook(std::span<const Counted> counted, double independent,
                 const std::optional<TrackedPlace>& tracked);
   void NoteWay(bool was_held);
-  void NoteMagnification(const ComparedView& nearest, double independent);
+  void NoteMagnification(const Counted& nearest, double independent);
 
   RouteBeliefOptions options_;
   std::vector<ViewPlace> views_;  // rising, from the route's beginning
@@ -177,7 +189,7 @@ class RouteBelief {
   // These are the views that were recognised well in the last look, and how much the logarithm of a
   // view's magnification has lately grown from look to look: it falls when a robot drives
   // backwards.
-  std::vector<ComparedView> well_recognised_;
+  std::vector<Counted> well_recognised_;
   double growth_ = 0.0;
   std::size_t turn_ = 0;
 };

@@ -143,7 +143,14 @@ void RouteBelief::SwitchWitnesses(double independent) {
   }
 }
 
-// Returns the log-likelihood ratio of that many agreeing features.
+// Equation (5).
+RouteBelief::Counted RouteBelief::Count(const ComparedView& view) const {
+  const double features = std::max(options_.features, static_cast<double>(view.features));
+  const double each = std::pow(options_.features / features, options_.chance_grows);
+  return {view.view, static_cast<int>(std::lround(each * view.agreed)), view.log_scale};
+}
+
+// Returns the log-likelihood ratio of that many agreeing features: equation (6).
 double RouteBelief::Alike(int agreed, int best) const {
   const double ratio =
       std::clamp(options_.gain * (agreed - options_.neutral), options_.least, options_.most);
@@ -153,7 +160,7 @@ double RouteBelief::Alike(int agreed, int best) const {
 
 // Returns the log-likelihood ratio of their size. The scout would have seen them larger by `growth`
 // than in the view itself.
-double RouteBelief::SizeFits(const ComparedView& view, double growth) const {
+double RouteBelief::SizeFits(const Counted& view, double growth) const {
   const double off = (view.log_scale - *log_magnification_ - growth) / options_.log_scale_sigma;
   return std::max(options_.log_scale_least, -0.5 * off * off);
 }
@@ -177,7 +184,7 @@ RouteBelief::Neighbours RouteBelief::NeighboursOf(std::size_t view) const {
 }
 
 // Between two views both count, and the nearer one counts more.
-void RouteBelief::WeighCellsAbout(const ComparedView& view, int best, double independent,
+void RouteBelief::WeighCellsAbout(const Counted& view, int best, double independent,
                                   MovedGrid& grid) {
   const double at = views_[view.view].at;
   const auto [first_here, next] = NeighboursOf(view.view);
@@ -226,18 +233,22 @@ void RouteBelief::Weigh(std::span<const ComparedView> compared, double independe
   if (cells() == 0 || compared.empty()) return;
   Leave(independent);
   SwitchWitnesses(independent);
+  std::vector<Counted> ordered;
+  ordered.reserve(compared.size());
   int best = tracked ? tracked->agreed : 0;
-  for (const ComparedView& view : compared) best = std::max(best, view.agreed);
-  std::vector<ComparedView> ordered(compared.begin(), compared.end());
+  for (const ComparedView& view : compared) {
+    ordered.push_back(Count(view));
+    best = std::max(best, ordered.back().agreed);
+  }
   std::sort(ordered.begin(), ordered.end(),
             [](const auto& a, const auto& b) { return a.view < b.view; });
   // The best recognised one counts of those that share a place.
   for (auto view = ordered.begin(); view != ordered.end();) {
     const double at = views_[view->view].at;
-    const auto end = std::find_if(view, ordered.end(), [&](const ComparedView& other) {
+    const auto end = std::find_if(view, ordered.end(), [&](const Counted& other) {
       return views_[other.view].at - at >= kSamePlace;
     });
-    const ComparedView& likest = *std::max_element(
+    const Counted& likest = *std::max_element(
         view, end, [](const auto& a, const auto& b) { return a.agreed < b.agreed; });
     for (Witness& each : witnesses_) WeighCellsAbout(likest, best, independent, each.grid());
     view = end;
@@ -342,14 +353,14 @@ std::vector<double> RouteBelief::Likeliest(std::size_t most, double least, doubl
   return places;
 }
 
-void RouteBelief::NoteGrowth(std::span<const ComparedView> compared) {
-  std::vector<ComparedView> well;
+void RouteBelief::NoteGrowth(std::span<const Counted> counted) {
+  std::vector<Counted> well;
   double grown = 0.0;
   int count = 0;
-  for (const ComparedView& view : compared) {
+  for (const Counted& view : counted) {
     if (view.agreed < options_.agreed_for_scale) continue;
     well.push_back(view);
-    for (const ComparedView& before : well_recognised_) {
+    for (const Counted& before : well_recognised_) {
       if (before.view != view.view) continue;
       grown += view.log_scale - before.log_scale;
       ++count;
@@ -359,11 +370,11 @@ void RouteBelief::NoteGrowth(std::span<const ComparedView> compared) {
   well_recognised_ = std::move(well);
 }
 
-void RouteBelief::NoteLook(std::span<const ComparedView> compared, double independent,
+void RouteBelief::NoteLook(std::span<const Counted> counted, double independent,
                            const std::optional<TrackedPlace>& tracked) {
-  NoteGrowth(compared);
-  const ComparedView* nearest = nullptr;
-  for (const ComparedView& view : compared) {
+  NoteGrowth(counted);
+  const Counted* nearest = nullptr;
+  for (const Counted& view : counted) {
     if (std::abs(views_[view.view].at - place_.along) > options_.window) continue;
     if (nearest == nullptr || view.agreed > nearest->agreed) nearest = &view;
   }
@@ -397,7 +408,7 @@ void RouteBelief::NoteWay(bool was_held) {
 }
 
 // This part of the nearest view's magnification comes from where the view was taught.
-void RouteBelief::NoteMagnification(const ComparedView& nearest, double independent) {
+void RouteBelief::NoteMagnification(const Counted& nearest, double independent) {
   const double at = views_[nearest.view].at;
   const auto [first, next] = NeighboursOf(nearest.view);
   double grown = 0.0;

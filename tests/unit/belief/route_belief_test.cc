@@ -207,6 +207,28 @@ TEST(RouteBelief, AHandfulOfFeaturesThatAgreeByChanceAreNoPlace) {
   }
 }
 
+// This shows views of so many features each, of which so many agree, whatever the place is.
+bool IsHeldBy(int agreed, int features) {
+  Route route(60);
+  route.belief.StartAt(0.0, 0.5);
+  for (int i = 0; i < 30; ++i) {
+    std::vector<ComparedView> compared;
+    for (const std::size_t view : route.belief.WorthComparing(8, 32)) {
+      const bool here = std::abs(route.belief.view_at(view)) < 0.5;
+      compared.push_back({view, here ? agreed : 2, 0.0, features});
+    }
+    route.belief.Weigh(compared, 1.0);
+  }
+  return route.belief.place().held;
+}
+
+TEST(RouteBelief, MoreFeaturesOfALargerViewAgreeByChance) {
+  EXPECT_FALSE(IsHeldBy(4, 40));
+  EXPECT_TRUE(IsHeldBy(5, 40));
+  EXPECT_FALSE(IsHeldBy(7, 80));
+  EXPECT_TRUE(IsHeldBy(8, 80));
+}
+
 TEST(RouteBelief, FindsItselfWhereverItIsPut) {
   for (const double along : {3.0, 31.5, 57.0}) {
     Route route(60);

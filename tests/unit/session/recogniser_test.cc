@@ -31,9 +31,9 @@ TEST(Recogniser, TellsWhichViewsAreSeenAndHowTheyMapOntoThePicture) {
   ASSERT_LT(reduced.width, frame.width);
   for (const image::GrayImage* picture : {&frame, &reduced}) {
     const Look look = recogniser.LookAt(*picture, frame.width, std::vector<std::size_t>{0, 2});
-    ASSERT_EQ(look.Compared().size(), 2U);
-    EXPECT_LT(look.Compared()[0].agreed, 7);
-    EXPECT_GE(look.Compared()[1].agreed, 10);
+    ASSERT_EQ(recogniser.Compared(look).size(), 2U);
+    EXPECT_LT(recogniser.Compared(look)[0].agreed, 7);
+    EXPECT_GE(recogniser.Compared(look)[1].agreed, 10);
     ASSERT_NE(look.Best(), nullptr);
     EXPECT_EQ(look.Best()->view, 2U);
     const vision::ViewFit fit = recogniser.FitOf(look, look.Best()->comparison);
@@ -60,7 +60,7 @@ TEST(Recogniser, HowAPlaceLookedLaterSaysNothingOfHowThingsGrowOnTheWay) {
 TEST(Recogniser, NothingToCompareIsNothingSeen) {
   Recogniser recogniser(320);
   const Look look = recogniser.LookAt(test::PaintedWall(7).Photograph({}), 320, {});
-  EXPECT_TRUE(look.Compared().empty());
+  EXPECT_TRUE(recogniser.Compared(look).empty());
   EXPECT_EQ(look.Best(), nullptr);
 }
 

@@ -93,7 +93,7 @@ void Localiser::LookAt(const image::GrayImage& picture, int width_px) {
   look_ = recogniser_.LookAt(
       picture, width_px,
       belief.WorthComparing(kNearViews, where().held ? kOtherViews : kOtherViewsWhenLost));
-  belief.Weigh(look_.Compared(), std::clamp(new_since_look_, kLeastNew, 1.0), tracked_);
+  belief.Weigh(recogniser_.Compared(look_), std::clamp(new_since_look_, kLeastNew, 1.0), tracked_);
   new_since_look_ = 0.0;
   looked_ = true;
 }

@@ -5,22 +5,6 @@
 #include <utility>
 
 namespace trailcast::agent {
-namespace {
-
-constexpr double kOfModel = 40.0;  // features of a key view in the belief's model
-constexpr double kByChance = 0.7;
-
-}  // namespace
-
-std::vector<belief::ComparedView> Look::Compared() const {
-  std::vector<belief::ComparedView> compared;
-  compared.reserve(views.size());
-  for (const Recognised& each : views) {
-    const auto agreed = static_cast<int>(std::lround(each.worth * each.comparison.agreed()));
-    compared.push_back({each.view, agreed, std::log(each.comparison.scale)});
-  }
-  return compared;
-}
 
 const Look::Recognised* Look::Best() const {
   const auto best =
@@ -63,11 +47,19 @@ Look Recogniser::Compare(view::ViewTable seen, int width_px,
   look.seen = std::move(seen);
   look.views.reserve(views.size());
   for (const std::size_t key : views) {
-    const double features = std::max(kOfModel, static_cast<double>(keys_[key].size()));
-    const double worth = std::pow(kOfModel / features, kByChance);
-    look.views.push_back({key, view::Compare(keys_[key], look.seen), worth});
+    look.views.push_back({key, view::Compare(keys_[key], look.seen)});
   }
   return look;
+}
+
+std::vector<belief::ComparedView> Recogniser::Compared(const Look& look) const {
+  std::vector<belief::ComparedView> compared;
+  compared.reserve(look.views.size());
+  for (const Look::Recognised& each : look.views) {
+    compared.push_back({each.view, each.comparison.agreed(), std::log(each.comparison.scale),
+                        static_cast<int>(keys_[each.view].size())});
+  }
+  return compared;
 }
 
 vision::ViewFit Recogniser::FitOf(const Look& look, const view::Comparison& comparison) const {

@@ -19,17 +19,11 @@ struct Look {
   struct Recognised {
     std::size_t view = 0;  // position among the route's key views
     view::Comparison comparison;
-    // This is the worth of one feature as evidence. The more features there are, the more agree by
-    // chance: eight of eighty are as unlikely as the five of forty with which the belief begins to
-    // count.
-    double worth = 1.0;
   };
   view::ViewTable seen;  // the frame's own features
   std::vector<Recognised> views;
   int width_px = 0;  // width of the frame
 
-  // Returns the comparisons for the belief.
-  [[nodiscard]] std::vector<belief::ComparedView> Compared() const;
   // Returns the one with the most features that agree, or null if none was compared.
   [[nodiscard]] const Recognised* Best() const;
 };
@@ -53,6 +47,8 @@ class Recogniser {
   [[nodiscard]] int scout_width_px() const { return scout_width_px_; }
   [[nodiscard]] const view::ViewTable& key(std::size_t view) const { return keys_[view]; }
 
+  // Returns a look's comparisons for the belief.
+  [[nodiscard]] std::vector<belief::ComparedView> Compared(const Look& look) const;
   // Returns how the scout's picture maps onto this one by what was recognised, in pixels.
   [[nodiscard]] vision::ViewFit FitOf(const Look& look, const view::Comparison& comparison) const;
 
