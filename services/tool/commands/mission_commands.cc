@@ -213,7 +213,9 @@ int Send(const CLI::App& app, const program::CommonOptions& common, SendOptions 
     and_also(exchange::NetworkTopics());
   auto peer = fleet::JoinAsOperator(common, use);
   if (!peer) return program::Complain(app, peer.error());
-  for (const std::string& each : *mission::ParseAddress(options.robot)) {
+  const auto addressed =
+      mission::ParseAddress(options.robot);  // which its flag's validator has accepted
+  for (const std::string& each : *addressed) {
     const auto unknown = options.unheard
                              ? std::nullopt
                              : fleet::FindUnknown(*peer->exchange, peer->self, each, kAllAreHeard);
