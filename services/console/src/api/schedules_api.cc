@@ -19,7 +19,6 @@ namespace {
 using httplib::Request;
 using httplib::Response;
 using program::OneLine;
-using schedule::Edit;
 
 // Returns the schedules of the server that answers first.
 Result<fleet::KnownSchedules> AskForSchedules(Desk& desk) {
@@ -46,7 +45,7 @@ std::string SchedulesBody(const std::vector<fleet::KnownSchedule>& schedules) {
   return OneLine({{"schedules", fleet::SchedulesJson(schedules)}});
 }
 
-void ChangeSchedule(Desk& desk, const std::string& who, Edit edit, Response& response) {
+void ChangeSchedule(Desk& desk, const std::string& who, schedule::Edit edit, Response& response) {
   const auto known = AskForSchedules(desk);
   if (!known) return Refuse(response, known.error());
   const auto server = fleet::ServerFor(*known, edit);
@@ -81,7 +80,7 @@ void ServeSchedules(http::Server& server, Desk& desk, const Access& access) {
     auto read = ReadSchedule(request.body);
     if (!read) return Refuse(response, read.error());
     ChangeSchedule(desk, access.WhoIs(request).name,
-                   {.kind = Edit::Kind::kAdd, .schedule = *std::move(read)}, response);
+                   {.kind = schedule::Edit::Kind::kAdd, .schedule = *std::move(read)}, response);
   });
   server.Get("/api/schedules/calendar", [&desk](const Request& /*request*/, Response& response) {
     const auto known = AskForSchedules(desk);
@@ -95,9 +94,9 @@ void ServeSchedules(http::Server& server, Desk& desk, const Access& access) {
     if (!read) return Refuse(response, read.error());
     Answer(response, 200, OneLine(fleet::PreviewJson(*read, NowUnixMs())));
   });
-  const auto change_as = [&desk, &access](Edit::Kind kind) {
+  const auto change_as = [&desk, &access](schedule::Edit::Kind kind) {
     return [&desk, &access, kind](const Request& request, Response& response) {
-      Edit edit{.kind = kind};
+      schedule::Edit edit{.kind = kind};
       edit.schedule.name = request.matches[1];
       ChangeSchedule(desk, access.WhoIs(request).name, std::move(edit), response);
     };
@@ -112,11 +111,11 @@ void ServeSchedules(http::Server& server, Desk& desk, const Access& access) {
                                 request.matches[1].str()));
     }
     ChangeSchedule(desk, access.WhoIs(request).name,
-                   {.kind = Edit::Kind::kChange, .schedule = *std::move(read)}, response);
+                   {.kind = schedule::Edit::Kind::kChange, .schedule = *std::move(read)}, response);
   });
-  server.Delete(named, change_as(Edit::Kind::kRemove));
-  server.Post(named + "/pause", change_as(Edit::Kind::kPause));
-  server.Post(named + "/resume", change_as(Edit::Kind::kResume));
+  server.Delete(named, change_as(schedule::Edit::Kind::kRemove));
+  server.Post(named + "/pause", change_as(schedule::Edit::Kind::kPause));
+  server.Post(named + "/resume", change_as(schedule::Edit::Kind::kResume));
 }
 
 }  // namespace trailcast::console
