@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -23,16 +25,17 @@ constexpr milliseconds kListen{100};
 
 using Replies = std::map<AgentId, exchange::NetworkReply>;
 
-// Returns the page from that line on of each server that answers.
+// Returns the page from that line on of each of these servers that answers. Without any, it listens
+// to all that there are.
 Replies AskForPage(exchange::RouteExchange& exchange, const AgentId& client,
-                   const std::string& words, std::uint32_t first, std::size_t servers,
+                   const std::string& words, std::uint32_t first, const std::set<AgentId>& servers,
                    milliseconds timeout) {
   const exchange::NetworkRequest question{
       .client = client, .request = DrawNumber(), .words = words, .first = first};
   Replies replies;
   auto until = SteadyClock::now() + timeout;
   auto ask_at = SteadyClock::now();
-  while (SteadyClock::now() < until && replies.size() < servers) {
+  while (SteadyClock::now() < until && (servers.empty() || replies.size() < servers.size())) {
     if (SteadyClock::now() >= ask_at) {
       ask_at = SteadyClock::now() + kAskAllAgain;
       (void)exchange.Publish(question);  // repeated if it could not be sent
@@ -42,6 +45,7 @@ Replies AskForPage(exchange::RouteExchange& exchange, const AgentId& client,
       if (reply == nullptr || reply->client != client || reply->request != question.request) {
         continue;
       }
+      if (!servers.empty() && !servers.contains(reply->server)) continue;
       if (replies.empty()) until = std::min(until, SteadyClock::now() + kOthersAnswer);
       replies.try_emplace(reply->server, std::move(*reply));
     }
@@ -57,10 +61,10 @@ Result<std::map<AgentId, std::vector<std::string>>> AskAllForLines(
   std::map<AgentId, std::vector<std::string>> lines;
   std::string refused;
   std::uint32_t first = 0;
-  std::size_t servers = std::size_t{1} << 16U;  // nobody knows how many there are
-  while (servers > 0) {
+  std::set<AgentId> servers;  // those that have more; nobody knows at first which there are
+  do {
     Replies replies = AskForPage(exchange, client, words, first, servers, timeout);
-    std::size_t with_more = 0;
+    servers.clear();
     std::uint32_t next = 0;
     for (auto& [server, reply] : replies) {
       if (!reply.error.empty()) {
@@ -70,12 +74,11 @@ Result<std::map<AgentId, std::vector<std::string>>> AskAllForLines(
       std::vector<std::string>& of_server = lines[server];
       std::move(reply.lines.begin(), reply.lines.end(), std::back_inserter(of_server));
       if (reply.next <= first || of_server.size() >= enough) continue;
-      ++with_more;
+      servers.insert(server);
       next = std::max(next, reply.next);
     }
-    servers = with_more;
     first = next;
-  }
+  } while (!servers.empty());
   if (lines.empty() && !refused.empty()) return Fail(ErrorCode::kUnavailable, "{}", refused);
   if (lines.empty()) {
     return Fail(ErrorCode::kUnavailable,

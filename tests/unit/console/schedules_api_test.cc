@@ -139,7 +139,9 @@ TEST_F(SchedulesApiTest, TheCalendarHasWhatIsDueNextOfAll) {
   ASSERT_EQ(firings.size(), 12U) << "in four weeks";
   for (std::size_t i = 0; i < firings.size(); ++i) {
     EXPECT_NE(firings[i]["schedule"], "never");
-    if (i > 0) EXPECT_LT(firings[i - 1]["unix_ms"], firings[i]["unix_ms"]);
+    if (i > 0) {
+      EXPECT_LT(firings[i - 1]["unix_ms"], firings[i]["unix_ms"]);
+    }
   }
 }
 
