@@ -230,9 +230,10 @@ TEST_F(DeskTest, AMissionThatAServerPutsOffIsSentAgain) {
         return sent.wait_for(milliseconds(0)) == std::future_status::ready;
       },
       "an answer to the mission");
-  const auto report = sent.get();
-  ASSERT_TRUE(report) << report.error().message;
-  EXPECT_EQ(report->state, mission::State::kSent);
+  const auto reports = sent.get();
+  ASSERT_TRUE(reports) << reports.error().message;
+  ASSERT_EQ(reports->size(), 1U);
+  EXPECT_EQ(reports->front().state, mission::State::kSent);
 }
 
 TEST_F(DeskTest, AStopGoesOutWhileAllElseThatMayBeAskedWaits) {
