@@ -5,6 +5,7 @@
 
 #include "agent/follow/follower.h"
 #include "services/image/files.h"
+#include "tests/support/await.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/agent/swarm.h"
 
