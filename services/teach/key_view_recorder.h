@@ -23,10 +23,11 @@ struct KeyViewRecorderOptions {
   // is all that a camera with a narrow view sees of it.
   std::size_t middle_features = 0;
 
-  // Returns options for routes with odometry, whose followers know their place roughly. Their views
-  // are further apart. Few views with many features each are recognised better than more views with
-  // fewer, in as many bytes.
-  [[nodiscard]] static KeyViewRecorderOptions WithOdometry();
+  // Returns options for routes with odometry, whose followers know their place roughly. Its views
+  // take a quarter of the bytes.
+  [[nodiscard]] static KeyViewRecorderOptions WithOdometry() {
+    return {.features = 32, .compared = 32, .recognised_share = 0.4, .middle_features = 13};
+  }
 };
 
 // This is why followers may not recognise their place by the present frame.

@@ -6,10 +6,6 @@
 
 namespace trailcast::teach {
 
-KeyViewRecorderOptions KeyViewRecorderOptions::WithOdometry() {
-  return {.features = 64, .compared = 32, .recognised_share = 0.2, .middle_features = 13};
-}
-
 route::View KeyViewRecorder::Choose(const route::View& view) const {
   route::View middle;
   route::View rest;
