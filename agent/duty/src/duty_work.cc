@@ -451,7 +451,8 @@ void Duty::Done(const std::string& what) {
 std::string Duty::PhotosText() const {
   const auto& current = *mission_handler_.current();
   if (!current.photos.any() || !photo_taker_) return "";
-  if (photos_before_) return fmt::format("{} photos taken since its agent started again", photos_taken_);
+  if (photos_before_)
+    return fmt::format("{} photos taken since its agent started again", photos_taken_);
   std::vector<std::string> missing;
   for (const mission::PhotoPlace& place : current.photos.at) {
     std::string words = ToText(place);
