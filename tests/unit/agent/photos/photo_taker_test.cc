@@ -99,7 +99,7 @@ TEST_F(PhotoTakerTest, SaysWhyAPhotoIsNotKeptAndWhichHadToGo) {
       }
     };
     take({});
-    for (int i = 0; i < 8; ++i) take(grey);
+    for (int i = 0; i < 40; ++i) take(grey);
     const auto deadline = std::chrono::steady_clock::now() + test::kLongEnough;
     while (news.size() < 2 && std::chrono::steady_clock::now() < deadline) {
       for (std::string& line : taker.TakeNews()) news.push_back(std::move(line));
