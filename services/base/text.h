@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace trailcast {
 
@@ -17,5 +18,8 @@ namespace trailcast {
 // Makes `text` pass IsPlainText: it replaces characters that do not fit by spaces and cuts the rest
 // off.
 [[nodiscard]] std::string PlainText(std::string_view text, std::size_t max_bytes);
+
+// Returns the words of `text`, which have spaces between them, any number of them.
+[[nodiscard]] std::vector<std::string> WordsIn(std::string_view text);
 
 }  // namespace trailcast

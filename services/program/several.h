@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/base/result.h"
+#include "services/program/parses_by.h"
 
 namespace trailcast::program {
 
@@ -18,10 +19,6 @@ CLI::Option* AddSeveral(CLI::App& app, const std::string& flag, const std::strin
                         Result<Value> (*parse)(const std::string&),
                         std::type_identity_t<std::function<void(std::vector<Value>)>> take,
                         const std::string& help) {
-  const auto wrong = [parse](const std::string& text) {
-    const auto value = parse(text);
-    return value ? std::string() : value.error().message;
-  };
   return app
       .add_option_function<std::vector<std::string>>(
           flag,
@@ -31,7 +28,7 @@ CLI::Option* AddSeveral(CLI::App& app, const std::string& flag, const std::strin
             take(std::move(values));
           },
           help + "; may be given several times")
-      ->check(CLI::Validator(wrong, form))
+      ->check(ParsesBy(parse, form))
       ->expected(1, 20)
       ->take_all()
       ->allow_extra_args(false);

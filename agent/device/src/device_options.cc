@@ -12,6 +12,7 @@
 #include "services/base/angles.h"
 #include "services/base/csv_line.h"
 #include "services/base/number.h"
+#include "services/program/parses_by.h"
 #include "services/program/several.h"
 #include "services/program/stop_signal.h"
 
@@ -219,51 +220,30 @@ Result<Charger> ParseCharger(const std::string& text) {
 }
 
 CLI::Option* AddCharger(CLI::App& command, std::optional<Charger>& charger) {
-  const auto wrong = [](const std::string& text) {
-    const auto read = ParseCharger(text);
-    return read ? std::string() : read.error().message;
-  };
   return command
       .add_option_function<std::string>(
           "--sim-charger",
           [&charger](const std::string& text) { charger = ParseCharger(text).value(); },
           "Its battery charges within half a metre of this place in the world, from empty to full "
           "in so many of its minutes")
-      ->check(CLI::Validator(wrong, "X,Y@MINUTES"));
+      ->check(program::ParsesBy(ParseCharger, "X,Y@MINUTES"));
 }
 
 CLI::Option* AddCarriedOff(CLI::App& command, std::optional<CarriedOff>& carried) {
-  const auto wrong = [](const std::string& text) {
-    const auto read = ParseCarriedOff(text);
-    return read ? std::string() : read.error().message;
-  };
   return command
       .add_option_function<std::string>(
           "--sim-carry",
           [&carried](const std::string& text) { carried = ParseCarriedOff(text).value(); },
           "Somebody takes it up once it has driven so far, and sets it down there in the world, "
           "looking so many degrees to the left of the x-axis; its wheels do not feel it")
-      ->check(CLI::Validator(wrong, "X,Y,DEGREES@METRES"));
+      ->check(program::ParsesBy(ParseCarriedOff, "X,Y,DEGREES@METRES"));
 }
 
 CLI::Option* AddRoughPatches(CLI::App& command, std::vector<RoughGround>& patches) {
-  const auto wrong = [](const std::string& text) {
-    const auto patch = ParseRoughPatch(text);
-    return patch ? std::string() : patch.error().message;
-  };
-  return command
-      .add_option_function<std::vector<std::string>>(
-          "--rough",
-          [&patches](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) patches.push_back(ParseRoughPatch(text).value());
-          },
-          "Where in the world its wheels feel bumps, so high (RMS), in metres; may be given "
-          "several "
-          "times")
-      ->check(CLI::Validator(wrong, "X,Y,RADIUS,HEIGHT"))
-      ->expected(1, 20)
-      ->take_all()
-      ->allow_extra_args(false);
+  return program::AddSeveral(
+      command, "--rough", "X,Y,RADIUS,HEIGHT", &ParseRoughPatch,
+      [&patches](std::vector<RoughGround> given) { patches = std::move(given); },
+      "Where in the world its wheels feel bumps, so high (RMS), in metres");
 }
 
 Result<std::unique_ptr<RobotDevice>> OpenRos2(const DeviceOptions& options,

@@ -1,11 +1,13 @@
 #include "services/base/hex.h"
 
-#include <string_view>
-
 namespace trailcast {
+namespace {
+
+constexpr std::string_view kDigits = "0123456789abcdef";
+
+}  // namespace
 
 std::string ToHex(std::span<const std::uint8_t> bytes) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
   std::string hex;
   hex.reserve(2 * bytes.size());
   for (const std::uint8_t byte : bytes) {
@@ -13,6 +15,10 @@ std::string ToHex(std::span<const std::uint8_t> bytes) {
     hex += kDigits[byte & 15U];
   }
   return hex;
+}
+
+bool IsHex(std::string_view text) {
+  return text.find_first_not_of(kDigits) == std::string_view::npos;
 }
 
 }  // namespace trailcast

@@ -69,4 +69,14 @@ std::string PlainText(std::string_view text, std::size_t max_bytes) {
   return plain;
 }
 
+std::vector<std::string> WordsIn(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; (at = text.find_first_not_of(' ', at)) != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    words.emplace_back(text.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
 }  // namespace trailcast

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "services/base/hex.h"
 #include "services/base/text.h"
 #include "services/exchange/mirror.h"
 #include "services/mission/address.h"
@@ -399,8 +400,7 @@ Result<void> Check(const ReachReport& message) {
 Result<void> Check(const StoreSummary& message) {
   if (auto ok = CheckName("server", message.server.value()); !ok) return ok;
   const std::string& prefix = message.prefix;
-  const bool digits = prefix.find_first_not_of("0123456789abcdef") == std::string::npos;
-  if (!digits || prefix.size() % 2 != 0 || prefix.size() > kIdDigits) {
+  if (!IsHex(prefix) || prefix.size() % 2 != 0 || prefix.size() > kIdDigits) {
     return Fail(ErrorCode::kInvalidArgument,
                 "beginning of route ids '{}' is not an even number of hexadecimal digits, {} at "
                 "most",

@@ -11,6 +11,7 @@
 #include "services/base/angles.h"
 #include "services/base/ids.h"
 #include "services/base/number.h"
+#include "services/base/text.h"
 #include "services/mission/mission.h"
 #include "services/route/bounds.h"
 
@@ -35,16 +36,6 @@ constexpr double kMostSpeed = 3.0;
 constexpr double kLeastPhotoEvery_m = 0.2;
 constexpr std::string_view kPhoto = "photo";
 
-std::vector<std::string> Words(std::string_view text) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; (at = text.find_first_not_of(' ', at)) != std::string_view::npos;) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    words.emplace_back(text.substr(at, end - at));
-    at = end;
-  }
-  return words;
-}
-
 std::string RefText(const route::RouteRef& route) {
   return route.revision > 0 ? fmt::format("{}@{}", route.route, route.revision) : route.route;
 }
@@ -55,7 +46,7 @@ bool BeginsAnOrder(const std::string& word) {
 
 class Parser {
  public:
-  explicit Parser(std::string_view orders) : words_(Words(orders)) {}
+  explicit Parser(std::string_view orders) : words_(WordsIn(orders)) {}
 
   [[nodiscard]] Result<std::vector<Task>> All() {
     if (Next() == "goto") {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -24,20 +23,6 @@ constexpr std::string_view kSure = "sure";
 constexpr std::string_view kUnsure = "unsure";
 constexpr std::string_view kAhead = "ahead";
 constexpr std::string_view kBackwards = "backwards";
-
-std::vector<std::string> WordsIn(std::string_view text) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; (at = text.find_first_not_of(' ', at)) != std::string_view::npos;) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    words.emplace_back(text.substr(at, end - at));
-    at = end;
-  }
-  return words;
-}
-
-bool IsHex(std::string_view text) {
-  return text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
 
 std::optional<route::Digest> ReadDigest(const std::string& hex) {
   route::Digest digest{};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "services/program/parses_by.h"
 #include "services/route/query_words.h"
 
 namespace trailcast::program {
@@ -18,12 +19,8 @@ CLI::Option* AddOne(CLI::App& app, const std::string& flag, const std::string& h
             if (const auto read = route::ReadPlace(frame, text)) place = *read;
           },
           help)
-      ->check(CLI::Validator(
-          [frame](const std::string& text) {
-            const auto read = route::ReadPlace(frame, text);
-            return read ? std::string() : read.error().message;
-          },
-          ""))
+      ->check(
+          ParsesBy([frame](const std::string& text) { return route::ReadPlace(frame, text); }, ""))
       ->type_name(form);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "services/base/hex.h"
+
 namespace trailcast::route {
 namespace {
 
@@ -33,8 +35,7 @@ Result<RouteRef> ParseRouteRef(const std::string& text) {
 }
 
 bool LooksLikeId(std::string_view name_or_id) {
-  return name_or_id.size() >= kLeastIdDigits && name_or_id.size() <= kIdDigits &&
-         name_or_id.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+  return name_or_id.size() >= kLeastIdDigits && name_or_id.size() <= kIdDigits && IsHex(name_or_id);
 }
 
 bool IsMeantBy(const RouteInfo& info, const std::string& name_or_id) {

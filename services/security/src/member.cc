@@ -4,7 +4,6 @@
 #include <openssl/evp.h>
 #include <openssl/hmac.h>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <new>
@@ -17,12 +16,7 @@ namespace {
 
 constexpr std::size_t kIdDigits = 16;
 
-bool IsId(std::string_view text) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  return text.size() == kIdDigits && std::all_of(text.begin(), text.end(), [&](char c) {
-           return kDigits.find(c) != kDigits.npos;
-         });
-}
+bool IsId(std::string_view text) { return text.size() == kIdDigits && IsHex(text); }
 
 // Takes "role" and "id", with `between` between them, from the beginning of `text`.
 std::optional<Member> TakeRoleAndId(std::string_view& text, char between) {

@@ -26,10 +26,6 @@ constexpr std::string_view kSha256 = "sha256:";
 constexpr std::size_t kSaltDigits = 32;
 constexpr std::size_t kHashDigits = 64;
 
-bool IsHex(std::string_view text) {
-  return text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
-
 template <std::size_t kSize>
 std::array<unsigned char, kSize> Draw() {
   std::array<unsigned char, kSize> bytes{};

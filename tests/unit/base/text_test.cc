@@ -32,5 +32,12 @@ TEST(PlainText, MakesAnythingPassAndKeepsWhatPassed) {
   EXPECT_EQ(PlainText("ab\xC3\xA4", 3), "ab");  // no half characters
 }
 
+TEST(WordsIn, SplitsAtAnyNumberOfSpaces) {
+  EXPECT_EQ(WordsIn("  follow hall   3..10 "),
+            (std::vector<std::string>{"follow", "hall", "3..10"}));
+  EXPECT_TRUE(WordsIn("   ").empty());
+  EXPECT_TRUE(WordsIn("").empty());
+}
+
 }  // namespace
 }  // namespace trailcast
