@@ -60,6 +60,8 @@ struct RouteBeliefOptions {
   double log_scale_sigma = 0.05;
   double log_scale_least = -2.0;
   int agreed_for_scale = 12;
+  // With so many, the size says from how far away the view is seen.
+  int agreed_for_distance = 8;
   // These are the chances of leaving the route, and of coming upon it again somewhere, for each
   // independent look.
   double leaves = 0.003;
@@ -151,12 +153,23 @@ class RouteBelief {
     double log_scale = 0.0;
   };
   [[nodiscard]] Counted Count(const ComparedView& view) const;
-  struct Neighbours;
+  // This is a place of key views. Views of a turn on the spot share theirs. Places between stations
+  // are told by fractions: halfway from the third to the fourth is 2.5.
+  struct Station {
+    double at = 0.0;
+    std::optional<double> growth;  // as in the first ViewPlace of it
+  };
+  [[nodiscard]] double AmongStations(double along) const;
+  // Returns how much larger things are at one place than at another, as a logarithm, or nothing
+  // where that is not known.
+  [[nodiscard]] std::optional<double> Growth(double from, double to) const;
+  // Returns from where a view is seen in which things are so much larger than in itself, as a
+  // logarithm. It ends where they do not grow along the route.
+  [[nodiscard]] double SeenFrom(std::size_t station, double larger) const;
   [[nodiscard]] std::size_t cells() const { return witnesses_.front().grid().cells().size(); }
   [[nodiscard]] double each() const { return static_cast<double>(witnesses_.size()); }
   [[nodiscard]] double Alike(int agreed, int best) const;
   [[nodiscard]] double SizeFits(const Counted& view, double growth) const;
-  [[nodiscard]] Neighbours NeighboursOf(std::size_t view) const;
   void WeighCellsAbout(const Counted& view, int best, double independent, MovedGrid& grid);
   void WeighCellsAbout(const TrackedPlace& tracked, int best, double independent, MovedGrid& grid);
   [[nodiscard]] CellGrid Together() const;
@@ -174,7 +187,9 @@ class RouteBelief {
   void NoteMagnification(const Counted& nearest, double independent);
 
   RouteBeliefOptions options_;
-  std::vector<ViewPlace> views_;  // rising, from the route's beginning
+  std::vector<Station> stations_;        // rising
+  std::vector<std::size_t> station_of_;  // each view's
+  std::vector<ViewPlace> views_;         // rising, from the route's beginning
   double length_ = 0.0;
   std::vector<Witness> witnesses_;  // at least one; their masses and off_ add up to 1
   double off_ = 1.0;
@@ -185,6 +200,7 @@ class RouteBelief {
   // was.
   std::deque<std::pair<double, double>> magnifications_;
   std::optional<double> log_magnification_;
+  bool magnification_is_sure_ = false;  // enough to tell how far away a view is
   double held_along_ = 0.0;
   // These are the views that were recognised well in the last look, and how much the logarithm of a
   // view's magnification has lately grown from look to look: it falls when a robot drives

@@ -10,9 +10,10 @@ namespace trailcast::belief {
 namespace {
 
 constexpr double kSamePlace = 1e-3;  // of key views no further apart the robot turned on the spot
+constexpr double kGrows = 0.01;  // from station to station: less does not tell how far a view is
 constexpr std::size_t kMagnificationsKept = 60;
 constexpr double kFewestMagnifications = 3.0;  // sum of the independence of looks
-constexpr double kKnownMagnification = 10.0;   // weight of what an earlier run found
+constexpr double kKnownMagnification = 10.0;   // the same, of what an earlier run found
 
 constexpr double kGrowthLearns = 0.15;  // for each look
 constexpr double kShrinks = -0.003;     // for each look: below it the robot drives backwards
@@ -41,7 +42,14 @@ int Median(const std::deque<int>& values) {
 }  // namespace
 
 void RouteBelief::Extend(double length, std::span<const ViewPlace> views) {
-  for (const ViewPlace& view : views) views_.push_back({length_ + view.at, view.growth, view.own});
+  for (const ViewPlace& view : views) {
+    const double at = length_ + view.at;
+    views_.push_back({at, view.growth, view.own});
+    if (stations_.empty() || at - stations_.back().at >= kSamePlace) {
+      stations_.push_back({at, view.growth});
+    }
+    station_of_.push_back(stations_.size() - 1);
+  }
   length_ += length;
   const auto cells = static_cast<std::size_t>(std::floor(length_ / options_.cell)) + 1;
   for (Witness& witness : witnesses_) {
@@ -81,6 +89,7 @@ void RouteBelief::StartAnywhere() {
 void RouteBelief::KnowMagnification(double log_magnification) {
   magnifications_.assign(1, {log_magnification, kKnownMagnification});
   log_magnification_ = log_magnification;
+  magnification_is_sure_ = true;
 }
 
 // Returns the mass of all witnesses together.
@@ -165,50 +174,70 @@ double RouteBelief::SizeFits(const Counted& view, double growth) const {
   return std::max(options_.log_scale_least, -0.5 * off * off);
 }
 
-// These are the views next to a place on either side, and those that share it.
-struct RouteBelief::Neighbours {
-  std::size_t first = 0;  // the first of those that share it
-  std::size_t after = 0;  // the next one, or views_.size()
-};
-
-RouteBelief::Neighbours RouteBelief::NeighboursOf(std::size_t view) const {
-  Neighbours neighbours{view, view + 1};
-  const double at = views_[view].at;
-  while (neighbours.first > 0 && at - views_[neighbours.first - 1].at < kSamePlace) {
-    --neighbours.first;
-  }
-  while (neighbours.after < views_.size() && views_[neighbours.after].at - at < kSamePlace) {
-    ++neighbours.after;
-  }
-  return neighbours;
+double RouteBelief::AmongStations(double along) const {
+  const auto after =
+      std::upper_bound(stations_.begin(), stations_.end(), along,
+                       [](double place, const Station& station) { return place < station.at; });
+  const auto next = static_cast<std::size_t>(std::distance(stations_.begin(), after));
+  if (next == 0) return 0.0;
+  const auto before = static_cast<double>(next - 1);
+  if (next == stations_.size()) return before;
+  const double from = stations_[next - 1].at;
+  return before + (along - from) / (stations_[next].at - from);
 }
 
-// Between two views both count, and the nearer one counts more.
+std::optional<double> RouteBelief::Growth(double from, double to) const {
+  if (from > to) {
+    const auto back = Growth(to, from);
+    return back ? std::optional(-*back) : std::nullopt;
+  }
+  double grown = 0.0;
+  for (auto before = static_cast<std::size_t>(from); static_cast<double>(before) < to; ++before) {
+    const auto here = static_cast<double>(before);
+    const double share = std::min(to, here + 1.0) - std::max(from, here);
+    const std::optional<double>& growth = stations_[before + 1].growth;
+    if (!growth) return std::nullopt;
+    grown += share * *growth;
+  }
+  return grown;
+}
+
+double RouteBelief::SeenFrom(std::size_t station, double larger) const {
+  const bool back = larger < 0.0;
+  double left = std::abs(larger);
+  std::size_t here = station;
+  while (left > 0.0 && (back ? here > 0 : here + 1 < stations_.size())) {
+    const std::optional<double>& growth = stations_[back ? here : here + 1].growth;
+    if (!growth || *growth < kGrows) break;
+    if (left < *growth) return static_cast<double>(here) + (back ? -left : left) / *growth;
+    left -= *growth;
+    here = back ? here - 1 : here + 1;
+  }
+  return static_cast<double>(here);
+}
+
+// A view counts most where its size says that it is seen from, and not at all a station further:
+// equation (7).
 void RouteBelief::WeighCellsAbout(const Counted& view, int best, double independent,
                                   MovedGrid& grid) {
-  const double at = views_[view.view].at;
-  const auto [first_here, next] = NeighboursOf(view.view);
-  const bool is_first = first_here == 0;
-  const bool is_last = next == views_.size();
-  const double before = is_first ? -1.0 : views_[first_here - 1].at;
-  const double after = is_last ? length_ + 1.0 : views_[next].at;
-  const std::optional<double> grown_here = views_[first_here].growth;
-  const std::optional<double> grows_on = is_last ? std::nullopt : views_[next].growth;
+  const std::size_t station = station_of_[view.view];
+  const auto own = static_cast<double>(station);
+  const bool tells_distance = magnification_is_sure_ && view.agreed >= options_.agreed_for_distance;
+  const double centre =
+      tells_distance ? SeenFrom(station, view.log_scale - *log_magnification_) : own;
   const bool sized = log_magnification_ && view.agreed >= options_.agreed_for_scale;
   const double alike = Alike(view.agreed, best);
-  const std::size_t first = is_first ? 0 : grid.CellOf(before);
-  const std::size_t last = is_last ? cells() - 1 : grid.CellOf(after);
+  const auto at = [&](double place) { return stations_[static_cast<std::size_t>(place)].at; };
+  const auto last_station = static_cast<double>(stations_.size() - 1);
+  const std::size_t first = centre < 1.0 ? 0 : grid.CellOf(at(std::floor(centre - 1.0)));
+  const std::size_t last =
+      centre > last_station - 1.0 ? cells() - 1 : grid.CellOf(at(std::ceil(centre + 1.0)));
   std::vector<double> factors(last - first + 1, 1.0);
   for (std::size_t i = first; i <= last; ++i) {
-    const double along = grid.PlaceOf(i);
-    const bool is_before = along < at;
-    const double gap = is_before ? at - before : after - at;
-    const double off = std::clamp((along - at) / gap, -1.0, 1.0);
-    const bool at_the_end = is_before ? is_first : is_last;
-    const std::optional<double> growth = is_before ? grown_here : grows_on;
-    double ratio = alike;
-    if (sized && growth) ratio += SizeFits(view, at_the_end ? 0.0 : off * *growth);
-    const double share = at_the_end ? 1.0 : 1.0 - std::abs(off);
+    const double place = AmongStations(grid.PlaceOf(i));
+    const double share = std::max(0.0, 1.0 - std::abs(place - centre));
+    const std::optional<double> growth = sized ? Growth(own, place) : std::nullopt;
+    const double ratio = growth ? alike + SizeFits(view, *growth) : alike;
     factors[i - first] = std::exp(independent * share * ratio);
   }
   grid.cells().Multiply(first, factors);
@@ -409,16 +438,9 @@ void RouteBelief::NoteWay(bool was_held) {
 
 // This part of the nearest view's magnification comes from where the view was taught.
 void RouteBelief::NoteMagnification(const Counted& nearest, double independent) {
-  const double at = views_[nearest.view].at;
-  const auto [first, next] = NeighboursOf(nearest.view);
-  double grown = 0.0;
-  if (place_.along < at && first > 0) {
-    const double gap = at - views_[first - 1].at;
-    grown = -views_[first].growth.value_or(0.0) * std::min(1.0, (at - place_.along) / gap);
-  } else if (place_.along > at && next < views_.size()) {
-    const double gap = views_[next].at - at;
-    grown = views_[next].growth.value_or(0.0) * std::min(1.0, (place_.along - at) / gap);
-  }
+  const auto own = static_cast<double>(station_of_[nearest.view]);
+  const double place = std::clamp(AmongStations(place_.along), own - 1.0, own + 1.0);
+  const double grown = Growth(own, place).value_or(0.0);
   magnifications_.emplace_back(nearest.log_scale - grown, independent);
   if (magnifications_.size() > kMagnificationsKept) magnifications_.pop_front();
   double independent_looks = 0.0;
@@ -426,6 +448,7 @@ void RouteBelief::NoteMagnification(const Counted& nearest, double independent) 
   if (independent_looks >= kFewestMagnifications) {
     log_magnification_ = WeightedMedian(magnifications_);
   }
+  magnification_is_sure_ = magnification_is_sure_ || independent_looks >= kKnownMagnification;
 }
 
 std::vector<std::size_t> RouteBelief::Around(double along, std::size_t most) const {

@@ -318,6 +318,28 @@ TEST(RouteBelief, LearnsHowMuchLargerItsCameraShowsThings) {
   EXPECT_NEAR(*route.belief.log_magnification(), 0.26, 0.03);
 }
 
+// It shows at its size what the scout saw some metres on, and little of what the scout saw here.
+TEST(RouteBelief, ALensThatShowsThingsLargerRecognisesWhatIsAheadBest) {
+  constexpr double kLarger = 0.5;
+  constexpr double kAhead = 2.0;  // the view that is recognised best
+  Route route(60);
+  route.belief.StartAt(5.0, 0.5);
+  route.belief.KnowMagnification(kLarger);
+  for (double along = 5.0; along < 50.0; along += 0.3) {
+    std::vector<ComparedView> compared;
+    for (const std::size_t view : route.belief.WorthComparing(10, 4)) {
+      const double off = route.belief.view_at(view) - along;
+      const double agreed = 18.0 - 6.0 * std::abs(off - kAhead);
+      compared.push_back({view, std::max(2, static_cast<int>(agreed)), kLarger - 0.1 * off});
+    }
+    route.belief.Weigh(compared, 1.0);
+    EXPECT_TRUE(route.belief.place().held) << along;
+    EXPECT_NEAR(route.belief.place().along, along, 0.5);
+    route.belief.Move({0.3, 0.015, false});
+  }
+  EXPECT_NEAR(*route.belief.log_magnification(), kLarger, 0.05);
+}
+
 TEST(RouteBelief, ComparesTheNeighboursEachTimeAndTheOthersByTurns) {
   Route route(100);
   route.belief.StartAt(50.0, 0.5);
