@@ -89,6 +89,18 @@ Finding JudgeReceiveBuffer(std::optional<std::uint64_t> most_bytes) {
                       kGoodBuffer_bytes)};
 }
 
+Finding JudgePacketPieces(const std::optional<PacketPieces>& pieces) {
+  if (!pieces) return {Grade::kWarning, "packets in pieces: their memory cannot be read", ""};
+  const std::string what = fmt::format("packets in pieces: {} of memory, for {} s",
+                                       Size(pieces->most_bytes), pieces->kept_s);
+  if (pieces->ample()) return {Grade::kGood, what, ""};
+  return {
+      Grade::kWarning, what,
+      fmt::format("where packets are lost, pictures of ROS 2 robots on other computers stop coming "
+                  "once it is full; as root: {}",
+                  pieces->more())};
+}
+
 Finding JudgeNetwork(const std::vector<NetworkInterface>& interfaces, const std::string& wanted) {
   const auto found =
       std::find_if(interfaces.begin(), interfaces.end(), [&](const NetworkInterface& each) {
@@ -159,8 +171,11 @@ Finding JudgeDisk(const std::filesystem::path& folder, std::optional<std::uint64
 std::vector<Finding> ExamineMachine(const std::filesystem::path& folder,
                                     const std::string& network_interface) {
   return {JudgeReceiveBuffer(ReadNumber("/proc/sys/net/core/rmem_max")),
-          JudgeNetwork(Interfaces(), network_interface), JudgeClock(ClockOff()),
-          JudgeCycloneUri(CycloneUri()), JudgeDisk(folder, FreeBytes(folder))};
+          JudgePacketPieces(ReadPacketPieces()),
+          JudgeNetwork(Interfaces(), network_interface),
+          JudgeClock(ClockOff()),
+          JudgeCycloneUri(CycloneUri()),
+          JudgeDisk(folder, FreeBytes(folder))};
 }
 
 std::string CheckupText(const std::vector<Finding>& findings) {

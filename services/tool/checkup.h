@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "services/base/packet_pieces.h"
+
 namespace trailcast::tool {
 
 // This is one result of examining the machine, with advice.
@@ -27,6 +29,10 @@ struct NetworkInterface {
 // read. Routes come in bursts: with Debian's 208 KiB a busy machine loses some of each, and it is
 // sent again.
 [[nodiscard]] Finding JudgeReceiveBuffer(std::optional<std::uint64_t> most_bytes);
+// Takes the kernel's memory for packets that come in pieces, or nothing if it could not be read.
+// Other programs' pictures come so: over a link that loses packets Debian's 4 MB are full within
+// seconds, and then none comes.
+[[nodiscard]] Finding JudgePacketPieces(const std::optional<PacketPieces>& pieces);
 // `wanted` is the interface to use. If it is empty, DDS chooses.
 [[nodiscard]] Finding JudgeNetwork(const std::vector<NetworkInterface>& interfaces,
                                    const std::string& wanted);

@@ -118,6 +118,12 @@ class NetworkLab {
                     "--mode", "random", "--probability", std::to_string(share), "-j", "DROP"}));
   }
 
+  // Sets for how long the host's kernel keeps the pieces of a packet of which some have not come.
+  void KeepPiecesFor(int number, int seconds) {
+    Run(At(number,
+           {"sh", "-c", "echo " + std::to_string(seconds) + " >/proc/sys/net/ipv4/ipfrag_time"}));
+  }
+
   // Returns the number of bytes that the host has sent.
   [[nodiscard]] std::uint64_t Sent(int number) const {
     std::ifstream file("/proc/" + std::to_string(hosts_.at(number)) + "/net/dev");

@@ -23,6 +23,15 @@ TEST(Ros2Trouble, WhoseQualityOfServiceDoesNotMatchIsToldWhatToSet) {
   EXPECT_THAT(WhoIsMissing(topics, peers, {}), names_it);
 }
 
+TEST(Ros2Trouble, MemoryThatLostPiecesFillIsNamedWithTheWayOut) {
+  EXPECT_EQ(NoRoomText(std::nullopt), "");
+  EXPECT_EQ(NoRoomText(PacketPieces{3'000'000, 4'194'304, 30}), "");
+  EXPECT_THAT(
+      NoRoomText(PacketPieces{4'190'000, 4'194'304, 30}),
+      AllOf(HasSubstr("fill the 4 MB"), HasSubstr("up to 30 s"),
+            HasSubstr("sysctl -w net.ipv4.ipfrag_time=3 net.ipv4.ipfrag_high_thresh=67108864")));
+}
+
 TEST(Ros2Trouble, ARobotWithDdsSecurityIsToldHowToBeMet) {
   dds::Ros2Options topics;
   topics.robot = "/robot1";

@@ -22,6 +22,16 @@ TEST(Checkup, ReceiveBuffersOfDebianAreSmall) {
   EXPECT_EQ(JudgeReceiveBuffer(std::nullopt).grade, Grade::kWarning);
 }
 
+TEST(Checkup, MemoryOfDebianForPacketsInPiecesIsSmall) {
+  const Finding stock = JudgePacketPieces(PacketPieces{0, 4U << 20U, 30});
+  EXPECT_EQ(stock.grade, Grade::kWarning);
+  EXPECT_THAT(stock.what, HasSubstr("4.0 MiB of memory, for 30 s"));
+  EXPECT_THAT(stock.advice, HasSubstr("ipfrag_time=3"));
+  EXPECT_EQ(JudgePacketPieces(PacketPieces{0, 4U << 20U, 3}).grade, Grade::kGood);
+  EXPECT_EQ(JudgePacketPieces(PacketPieces{0, 64U << 20U, 30}).grade, Grade::kGood);
+  EXPECT_EQ(JudgePacketPieces(std::nullopt).grade, Grade::kWarning);
+}
+
 TEST(Checkup, NetworkNeedsAnInterfaceThatIsUpWithMulticast) {
   const NetworkInterface lo{"lo", true, false, true};
   const NetworkInterface wlan{"wlan0", true, true, false};
@@ -65,10 +75,11 @@ TEST(Checkup, ADiskIsGoodLowOrFull) {
 
 TEST(Checkup, ThisMachineGetsALineForEach) {
   const auto findings = ExamineMachine(".", "lo");
-  ASSERT_EQ(findings.size(), 5U);
-  EXPECT_EQ(findings[1].grade, Grade::kGood);
+  ASSERT_EQ(findings.size(), 6U);
+  EXPECT_EQ(findings[2].grade, Grade::kGood);
   const std::string text = CheckupText(findings);
-  for (const char* what : {"receive buffers", "network", "clock", "settings of DDS", "disk"}) {
+  for (const char* what :
+       {"receive buffers", "packets in pieces", "network", "clock", "settings of DDS", "disk"}) {
     EXPECT_THAT(text, HasSubstr(what));
   }
 }

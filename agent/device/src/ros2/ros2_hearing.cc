@@ -119,6 +119,7 @@ void Ros2Device::State::SlowDown() {
 // This also works if the loop that drives does not come back: a command holds for sensor_timeout.
 void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
   trouble = watch.Check(now);
+  NoteRoom();
   if (const std::string topic = driver->crowded(); !topic.empty()) {
     trouble = {
         RobotWatch::Trouble::Part::kCrowd,
@@ -142,6 +143,15 @@ void Ros2Device::State::StopIfInDoubt(steady_clock::time_point now) {
   if (told != motion::VelocityCommand{}) stop_said_until = now + kSayAgain;
   // A stop that could not be sent is repeated as well.
   if (now <= stop_said_until) (void)Tell({});
+}
+
+void Ros2Device::State::NoteRoom() {
+  if (!trouble || trouble->part != RobotWatch::Trouble::Part::kCamera) {
+    no_room.clear();
+    return;
+  }
+  if (no_room.empty()) no_room = NoRoomText(ReadPacketPieces());
+  trouble->what += no_room;
 }
 
 // The time of a robot in lockstep advances only when its frames are answered, even while it waits

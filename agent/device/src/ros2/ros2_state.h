@@ -59,6 +59,7 @@ struct Ros2Device::State {
   void KeepScan(const dds::Ros2Scan& scan, std::chrono::steady_clock::time_point now);
   void KeepRange(const dds::Ros2Range& range, std::chrono::steady_clock::time_point now);
   void SlowDown();
+  void NoteRoom();
   void AnswerByStanding();
   void StopIfInDoubt(std::chrono::steady_clock::time_point now);
 
@@ -119,6 +120,7 @@ struct Ros2Device::State {
   std::chrono::steady_clock::time_point told_at;
   std::chrono::steady_clock::time_point stop_said_until;
   std::optional<RobotWatch::Trouble> trouble;
+  std::string no_room;  // for the camera's packets, since it is silent
   std::chrono::steady_clock::time_point waiting_since;  // for a frame
   Halt shared;
   std::vector<std::string> told_news;  // until TakeNews, at most the first few

@@ -49,6 +49,14 @@ std::string TroubleText(const dds::Ros2Options& topics, const dds::Ros2Driver::P
   return fmt::format("base {}: {}", topics.CommandTopic(), trouble.what);
 }
 
+std::string NoRoomText(const std::optional<PacketPieces>& pieces) {
+  if (!pieces || !pieces->full()) return {};
+  return fmt::format(
+      "; packets of which pieces were lost fill the {:.0f} MB that this computer has for such, and "
+      "keep pictures out for up to {} s; as root: {}",
+      1e-6 * static_cast<double>(pieces->most_bytes), pieces->kept_s, pieces->more());
+}
+
 std::string WhoIsMissing(const dds::Ros2Options& topics, const dds::Ros2Driver::Peers& peers,
                          const Came& came) {
   std::string text;

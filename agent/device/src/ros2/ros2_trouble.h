@@ -4,6 +4,7 @@
 #include <string>
 
 #include "agent/device/src/robot_watch.h"
+#include "services/base/packet_pieces.h"
 #include "services/dds/ros2_link.h"
 
 // These describe what is wrong with a ROS 2 robot, in one line for people.
@@ -13,6 +14,10 @@ namespace trailcast::agent {
 [[nodiscard]] std::string TroubleText(const dds::Ros2Options& topics,
                                       const dds::Ros2Driver::Peers& peers,
                                       const RobotWatch::Trouble& trouble, bool stamps_stand);
+
+// Returns what keeps pictures from this computer if its memory for packets in pieces is full, to be
+// added to a silent camera's trouble. It is empty otherwise.
+[[nodiscard]] std::string NoRoomText(const std::optional<PacketPieces>& pieces);
 
 // The kinds of messages that have come from a robot since the agent began.
 struct Came {
