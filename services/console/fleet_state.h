@@ -141,6 +141,9 @@ class FleetState {
 
   void On(const exchange::AgentStatus& status, Time now, std::int64_t unix_ms);
   void On(const exchange::NowAnswer& answer);
+  // Says whether that mission is a group's that a robot has by now, and forgets that a group had
+  // it.
+  bool IsGiven(const AgentId& agent, const std::string& id);
   void On(const mission::Report& report, std::int64_t unix_ms);
   void On(const exchange::MissionReply& reply);
   void On(const exchange::CatalogReply& reply);

@@ -166,8 +166,24 @@ std::vector<exchange::NowCommand> FleetState::TakeOpenStops(Time now) {
   return stops;
 }
 
+// A group's mission belongs to the robot that it is given to from then on, under the same id.
+bool FleetState::IsGiven(const AgentId& agent, const std::string& id) {
+  if (mission::IsGroup(agent.value())) {
+    return std::any_of(missions_.begin(), missions_.end(), [&](const auto& known) {
+      return known.first.second == id && !mission::IsGroup(known.first.first.value());
+    });
+  }
+  std::vector<MissionName> of_groups;
+  for (const auto& [name, record] : missions_) {
+    if (name.second == id && mission::IsGroup(name.first.value())) of_groups.push_back(name);
+  }
+  for (const MissionName& name : of_groups) missions_.Erase(name);
+  return false;
+}
+
 void FleetState::On(const mission::Report& report, std::int64_t unix_ms) {
   if (report.state == mission::State::kPutOff) return;  // it has no outcome yet
+  if (IsGiven(report.agent, report.mission)) return;
   const MissionName name{report.agent, report.mission};
   mission::Record* known = missions_.Find(name);
   const bool is_new = known == nullptr;
@@ -194,6 +210,7 @@ void FleetState::On(const exchange::MissionReply& reply) {
   // The reply has the newest first. They are taken in reverse, so that the newest stays longest.
   for (auto record = reply.missions.rbegin(); record != reply.missions.rend(); ++record) {
     const MissionName name{record->mission.agent, record->mission.id};
+    if (IsGiven(name.first, name.second)) continue;
     const bool is_new = missions_.Find(name) == nullptr;
     mission::Record& known = missions_.Touch(name);
     const mission::Report heard = known.last;

@@ -212,6 +212,9 @@ TEST_F(ConsoleHomeTest, WhicheverRobotOfAGroupIsFreeFirstIsSentAndWhatWaitsIsLis
            browser.WaitForText("Slide to send a free robot of robot along hall") &&
            browser.Type(group + "//input[@type='range']", kSlide);
   };
+  const auto waiting = [&] {
+    return browser.Run("return document.querySelectorAll('.several .queue li').length");
+  };
   ASSERT_TRUE(send()) << browser.Text();
   ASSERT_TRUE(WaitForStateOf("robot1", "driving")) << State().dump(2);
   ASSERT_TRUE(send()) << browser.Text();
@@ -219,6 +222,8 @@ TEST_F(ConsoleHomeTest, WhicheverRobotOfAGroupIsFreeFirstIsSentAndWhatWaitsIsLis
   ASSERT_TRUE(send()) << browser.Text();
   ASSERT_TRUE(browser.WaitForText("no robot of @robot is free; robot1: it does mission"))
       << browser.Text();
+  ASSERT_TRUE(WaitUntil([&] { return waiting() == json(1); })) << "two were given to robots\n"
+                                                               << browser.Text();
   browser.Screenshot(Shot("group"));
   ASSERT_TRUE(browser.Click(group + "//button[. = 'Cancel what waits']")) << browser.Text();
   ASSERT_TRUE(browser.WaitForText("what waits for the group is told so")) << browser.Text();

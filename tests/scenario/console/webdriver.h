@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gtest/gtest.h>
 #include <httplib.h>
 #include <unistd.h>
 
@@ -95,15 +96,20 @@ class Browser {
   // it moves away under the pointer, the click is repeated.
   [[nodiscard]] bool Click(const std::string& xpath) {
     const auto gives_up = std::chrono::steady_clock::now() + test::kLongEnough;
+    std::string why;
     do {
       const std::string element = Find(xpath);
+      why = "there is no such element";
       if (element.empty()) continue;
       (void)Ask("POST", session_ + "/execute/sync",
                 {{"script", "arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})"},
                  {"args", Json::array({{{kElement, element}}})}});
       const Json none = Json::object();
-      if (Ask("POST", session_ + "/element/" + element + "/click", none).is_null()) return true;
+      const Json answer = Ask("POST", session_ + "/element/" + element + "/click", none);
+      if (answer.is_null()) return true;
+      why = answer.dump();
     } while (std::chrono::steady_clock::now() < gives_up);
+    ADD_FAILURE() << xpath << " cannot be clicked: " << why;
     return false;
   }
   // Returns the element once it is there.

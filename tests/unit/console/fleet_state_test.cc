@@ -203,6 +203,21 @@ TEST_F(FleetStateTest, WhoIsSilentOrGoneStaysListed) {
   EXPECT_EQ(Robot()["state"], "driving");
 }
 
+TEST_F(FleetStateTest, AMissionOfAGroupIsTheRobotsOnceItIsGivenToOne) {
+  mission::Report waits = Report("trip", 0, State::kSent, "waits: no robot of @cart is free");
+  waits.agent = AgentId("@cart");
+  Hear(waits);
+  Hear(Kept(waits, 1000));
+  EXPECT_EQ(Shown()["missions"][0]["robot"], "@cart");
+  Hear(Report("trip", 0, State::kSent));
+  ASSERT_EQ(Shown()["missions"].size(), 1U) << Shown().dump(2);
+  EXPECT_EQ(Shown()["missions"][0]["robot"], "robot1");
+  Hear(waits);
+  Hear(Kept(waits, 1000));
+  EXPECT_EQ(Shown()["missions"].size(), 1U) << "that was on its way for longer\n"
+                                            << Shown().dump(2);
+}
+
 TEST_F(FleetStateTest, WhoStoodFreeAndIsLongGoneIsListedNoMore) {
   AgentStatus driving = Status("robot1", AgentMode::kReplaying);
   driving.speed_mps = 0.4;

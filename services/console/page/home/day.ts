@@ -15,6 +15,8 @@ function isNewer(one: Mission, other: Mission): boolean {
   return one.changed_unix_ms > other.changed_unix_ms || (one.changed_unix_ms === other.changed_unix_ms && one.state !== other.state);
 }
 
+const isOfGroup = ({ robot }: Mission) => robot.startsWith('@');
+
 export type Day = {
   missions: Mission[];
   begun_ms: Map<string, number>;  // of those that this page has seen begin
@@ -53,9 +55,17 @@ export function useDay(fleet: Fleet | null, lost: boolean, now_ms: number): Day 
   const [visits, setVisits] = useState(0);
   const asked_ms = useRef(0);
 
+  // A group's mission belongs to the robot that it is given to from then on, under the same id.
+  const given = (mission: Mission) => {
+    const same = [...known.current.values()].filter((each) => each.mission === mission.mission && isOfGroup(each) !== isOfGroup(mission));
+    if (isOfGroup(mission)) return same.length > 0;
+    for (const each of same) known.current.delete(keyOf(each));
+    return false;
+  };
   const take = (missions: Mission[]) => {
     let news = false;
     for (const mission of missions) {
+      if (given(mission)) continue;
       const key = keyOf(mission);
       const had = known.current.get(key);
       if (had && !isNewer(mission, had)) continue;
