@@ -13,6 +13,7 @@ constexpr double kSamePlace = 1e-3;  // of key views no further apart the robot 
 constexpr double kGrows = 0.01;  // from station to station: less does not tell how far a view is
 constexpr std::size_t kMagnificationsKept = 60;
 constexpr double kFewestMagnifications = 3.0;  // sum of the independence of looks
+constexpr double kSureMagnification = 5.0;     // the same, to tell how far away a view is
 constexpr double kKnownMagnification = 10.0;   // the same, of what an earlier run found
 
 constexpr double kGrowthLearns = 0.15;  // for each look
@@ -448,7 +449,7 @@ void RouteBelief::NoteMagnification(const Counted& nearest, double independent) 
   if (independent_looks >= kFewestMagnifications) {
     log_magnification_ = WeightedMedian(magnifications_);
   }
-  magnification_is_sure_ = magnification_is_sure_ || independent_looks >= kKnownMagnification;
+  magnification_is_sure_ = magnification_is_sure_ || independent_looks >= kSureMagnification;
 }
 
 std::vector<std::size_t> RouteBelief::Around(double along, std::size_t most) const {
