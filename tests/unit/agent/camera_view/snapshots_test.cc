@@ -38,6 +38,17 @@ class SnapshotsTest : public testing::Test {
     }
     return std::nullopt;
   }
+  // Asks until a picture comes. A computer that is busy elsewhere may show one too late for the
+  // first answers.
+  std::optional<exchange::Snapshot> Picture(std::uint64_t request, const SnapshotFrame& frame) {
+    const auto until = steady_clock::now() + test::kLongEnough;
+    std::optional<exchange::Snapshot> snapshot;
+    do {
+      Ask(request);
+      snapshot = Answer([&] { snapshots_.Show(frame); });
+    } while (snapshot && snapshot->picture.empty() && steady_clock::now() < until);
+    return snapshot;
+  }
 
   exchange::InProcessBus bus_;
   Snapshots snapshots_{AgentId("robot1")};
@@ -47,10 +58,9 @@ class SnapshotsTest : public testing::Test {
 };
 
 TEST_F(SnapshotsTest, WhoAsksGetsAPictureOfFewBytesThatShowsWhatTheRobotSees) {
-  Ask(7);
   SnapshotFrame frame{.picture = test::WalkFrame(3)};
   frame.turn_rad = 0.1;
-  const auto snapshot = Answer([&] { snapshots_.Show(frame); });
+  const auto snapshot = Picture(7, frame);
   ASSERT_TRUE(snapshot);
   EXPECT_EQ(snapshot->request, 7U);
   EXPECT_LE(snapshot->picture.size(), Snapshots::kMostBytes);
@@ -64,8 +74,7 @@ TEST_F(SnapshotsTest, APictureThatIsHardToEncodeIsCoarserAndNotLarger) {
   std::mt19937 random(1);
   SnapshotFrame noise{.picture = {640, 480, std::vector<std::uint8_t>(640 * 480)}};
   for (std::uint8_t& pixel : noise.picture.pixels) pixel = static_cast<std::uint8_t>(random());
-  Ask(1);
-  const auto snapshot = Answer([&] { snapshots_.Show(noise); });
+  const auto snapshot = Picture(1, noise);
   ASSERT_TRUE(snapshot);
   EXPECT_FALSE(snapshot->picture.empty());
   EXPECT_LE(snapshot->picture.size(), Snapshots::kMostBytes);
