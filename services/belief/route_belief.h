@@ -200,6 +200,9 @@ class RouteBelief {
   // was.
   std::deque<std::pair<double, double>> magnifications_;
   std::optional<double> log_magnification_;
+  // Without odometry the same views tell place and magnification, and one would pull the other
+  // along.
+  bool is_sensed_ = false;
   bool magnification_is_sure_ = false;  // enough to tell how far away a view is
   double held_along_ = 0.0;
   // These are the views that were recognised well in the last look, and how much the logarithm of a

@@ -14,6 +14,7 @@ struct Motion {
   // It was not measured: the robot went about this far forward, but standing, or several times as
   // far, is as likely. `sigma` is not used then.
   bool guessed = false;
+  bool sensed = false;  // by the robot's own sensors, as odometry is
 };
 
 // This is one of several hypotheses of how the robot moves, with the part of the belief that holds

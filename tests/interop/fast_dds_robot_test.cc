@@ -34,7 +34,7 @@ class FastDdsRobot : public ProgramsTest, public testing::WithParamInterface<con
       lab_->AddHost(kOtherHost);
       lab_->Lose(kHost, kLost);
       lab_->Lose(kOtherHost, kLost);
-      // As `trailcast doctor` advises. Without it pictures, which come in pieces, stop coming.
+      // The doctor advises it. Without it pictures, which come in pieces, stop coming.
       lab_->KeepPiecesFor(kOtherHost, 3);
     }
     std::ofstream film(Path("film"), std::ios::binary);

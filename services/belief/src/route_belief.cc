@@ -116,6 +116,8 @@ void RouteBelief::Hear(std::size_t witnesses) {
 void RouteBelief::Move(std::span<const Motion> told) {
   if (cells() == 0) return;
   Hear(told.size());
+  is_sensed_ =
+      std::any_of(told.begin(), told.end(), [](const Motion& each) { return each.sensed; });
   for (std::size_t i = 0; i < told.size(); ++i) witnesses_[i].Move(told[i], options_.diffusion);
   // A guessed motion tells less of the place than the next look does.
   if (std::any_of(told.begin(), told.end(), [](const Motion& each) { return !each.guessed; })) {
@@ -223,7 +225,8 @@ void RouteBelief::WeighCellsAbout(const Counted& view, int best, double independ
                                   MovedGrid& grid) {
   const std::size_t station = station_of_[view.view];
   const auto own = static_cast<double>(station);
-  const bool tells_distance = magnification_is_sure_ && view.agreed >= options_.agreed_for_distance;
+  const bool tells_distance =
+      is_sensed_ && magnification_is_sure_ && view.agreed >= options_.agreed_for_distance;
   const double centre =
       tells_distance ? SeenFrom(station, view.log_scale - *log_magnification_) : own;
   const bool sized = log_magnification_ && view.agreed >= options_.agreed_for_scale;

@@ -325,6 +325,7 @@ TEST(RouteBelief, ALensThatShowsThingsLargerRecognisesWhatIsAheadBest) {
   Route route(60);
   route.belief.StartAt(5.0, 0.5);
   route.belief.KnowMagnification(kLarger);
+  route.belief.Move({0.0, 0.01, false, true});
   for (double along = 5.0; along < 50.0; along += 0.3) {
     std::vector<ComparedView> compared;
     for (const std::size_t view : route.belief.WorthComparing(10, 4)) {
@@ -335,7 +336,7 @@ TEST(RouteBelief, ALensThatShowsThingsLargerRecognisesWhatIsAheadBest) {
     route.belief.Weigh(compared, 1.0);
     EXPECT_TRUE(route.belief.place().held) << along;
     EXPECT_NEAR(route.belief.place().along, along, 0.5);
-    route.belief.Move({0.3, 0.015, false});
+    route.belief.Move({0.3, 0.015, false, true});
   }
   EXPECT_NEAR(*route.belief.log_magnification(), kLarger, 0.05);
 }

@@ -57,13 +57,14 @@ void Localiser::Move(const FrameMotion& moved) {
   std::vector<belief::Motion> witnesses;
   const double pace = place_.PaceAt(where().along);
   const double units_in_m = metric() ? 1.0 : pace / route::kUsualSpeed_mps;
-  const auto hear = [&](const motion::OdometryIncrement& by, double sigma) {
+  const auto hear = [&](const motion::OdometryIncrement& by, double sigma, bool sensed) {
     witnesses.push_back({units_in_m * by.distance_m,
-                         units_in_m * std::hypot(sigma * by.distance_m, moved.unknown_m), false});
+                         units_in_m * std::hypot(sigma * by.distance_m, moved.unknown_m), false,
+                         sensed});
   };
   by_odometry_ = moved.odometry.has_value();
-  if (moved.odometry) hear(*moved.odometry, kOdometrySigma);
-  if (moved.told) hear(*moved.told, kToldSigma);
+  if (moved.odometry) hear(*moved.odometry, kOdometrySigma, true);
+  if (moved.told) hear(*moved.told, kToldSigma, false);
   const bool moves = moved.flow > kStill_flow && moved.dt_s > 0.0;
   witnesses.push_back({moves ? moved.dt_s * pace : 0.0, 0.0, true});
   place_.belief().Move(witnesses);
