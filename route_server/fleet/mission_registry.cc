@@ -43,6 +43,13 @@ std::uint32_t UnendedStates() {
   return all & ~EndedStates() & ~(1U << static_cast<unsigned>(mission::State::kSent));
 }
 
+// A robot that is held says why, if not in its first word of it.
+std::string HoldText(const exchange::AgentStatus& status) {
+  if (status.hold == exchange::AgentHold::kNone) return "";
+  if (!status.detail.empty()) return status.detail;
+  return status.hold == exchange::AgentHold::kPaused ? "it is paused" : "it is stopped";
+}
+
 }  // namespace
 
 mission::Report PutOff(const mission::Mission& mission, const std::string& why) {
@@ -375,9 +382,10 @@ void MissionRegistry::On(const exchange::AgentStatus& status, Time now) {
              .agree_at = now,
              .agree_pause = kSoon};
   }
-  if (is_new || heard.hold != status.hold) {
+  const std::string hold_text = HoldText(status);
+  if (is_new || heard.hold != status.hold || heard.hold_text != hold_text) {
     heard.hold = status.hold;
-    heard.hold_text = status.hold == exchange::AgentHold::kNone ? "" : status.detail;
+    heard.hold_text = hold_text;
     heard.tell_at = now;
     changed_.insert(status.agent);
   }

@@ -42,14 +42,15 @@ class MissionGroupsTest : public testing::Test {
                  .orders = orders,
                  .valid_for_s = valid_for_s});
   }
-  void IsThere(const std::string& robot, exchange::AgentHold hold = exchange::AgentHold::kNone) {
+  void IsThere(const std::string& robot, exchange::AgentHold hold = exchange::AgentHold::kNone,
+               const std::string& detail = "held by desk") {
     exchange::AgentStatus status;
     status.agent = AgentId(robot);
     status.instance = 1;
     status.role = exchange::AgentRole::kFollower;
     status.mode = exchange::AgentMode::kWaiting;
     status.hold = hold;
-    status.detail = "held by desk";
+    status.detail = detail;
     Hear(status);
   }
   void Says(const std::string& robot, const std::string& id, State state) {
@@ -109,6 +110,18 @@ TEST_F(MissionGroupsTest, AFreeRobotOfTheGroupTakesItOnceHoweverOftenItIsSent) {
     IsThere("cart-1");
     IsThere("cart-2");
   }
+}
+
+TEST_F(MissionGroupsTest, AHeldRobotIsNotFreeBeforeItHasSaidWhyItIsHeld) {
+  IsThere("cart-1", exchange::AgentHold::kPaused, "");
+  Send("@cart", "m1");
+  EXPECT_THAT(Pass(), IsEmpty());
+  EXPECT_EQ(said_["@cart"], "sent waits: no robot of @cart is free; cart-1: it is paused");
+  IsThere("cart-1", exchange::AgentHold::kPaused);
+  EXPECT_THAT(Pass(), IsEmpty());
+  EXPECT_EQ(said_["@cart"], "sent waits: no robot of @cart is free; cart-1: held by desk");
+  IsThere("cart-1");
+  EXPECT_THAT(Pass(), ElementsAre("cart-1 m1"));
 }
 
 TEST_F(MissionGroupsTest, ItWaitsForTheFirstThatIsFreeAndSaysWhatTheyDo) {
