@@ -216,16 +216,15 @@ TEST_F(ConsoleHomeTest, WhicheverRobotOfAGroupIsFreeFirstIsSentAndWhatWaitsIsLis
     return browser.Run("return document.querySelectorAll('.several .queue li').length");
   };
   ASSERT_TRUE(send()) << browser.Text();
-  // Neither ends its mission while the browser is looked at, however slow that is.
-  const auto drives_and_is_paused = [&](const std::string& robot) {
-    return WaitForStateOf(robot, "driving") &&
-           Post("/api/robots/" + robot + "/pause").status == 200 && WaitForStateOf(robot, "paused");
-  };
-  ASSERT_TRUE(drives_and_is_paused("robot1")) << State().dump(2);
+  ASSERT_TRUE(WaitForStateOf("robot1", "driving")) << State().dump(2);
+  // So neither ends its mission while the browser is looked at, however slow that is.
+  ASSERT_EQ(Post("/api/robots/robot1/pause").status, 200);
+  ASSERT_TRUE(WaitForStateOf("robot1", "paused")) << State().dump(2);
   ASSERT_TRUE(send()) << browser.Text();
-  ASSERT_TRUE(drives_and_is_paused("robot2")) << State().dump(2);
+  ASSERT_TRUE(WaitForStateOf("robot2", "waiting")) << "behind robot1\n" << State().dump(2);
   ASSERT_TRUE(send()) << browser.Text();
-  ASSERT_TRUE(browser.WaitForText("no robot of @robot is free; robot1: paused")) << browser.Text();
+  ASSERT_TRUE(browser.WaitForText("no robot of @robot is free; robot1: paused by console"))
+      << browser.Text();
   ASSERT_TRUE(WaitUntil([&] { return waiting() == json(1); })) << "two were given to robots\n"
                                                                << browser.Text();
   browser.Screenshot(Shot("group"));
