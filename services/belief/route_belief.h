@@ -62,6 +62,9 @@ struct RouteBeliefOptions {
   int agreed_for_scale = 12;
   // With so many, the size says from how far away the view is seen.
   int agreed_for_distance = 8;
+  // A camera whose magnification differs by less recognises best what is near, and the size of what
+  // it sees is left to tell of wheels that slip.
+  double other_lens = 0.25;
   // These are the chances of leaving the route, and of coming upon it again somewhere, for each
   // independent look.
   double leaves = 0.003;

@@ -225,8 +225,9 @@ void RouteBelief::WeighCellsAbout(const Counted& view, int best, double independ
                                   MovedGrid& grid) {
   const std::size_t station = station_of_[view.view];
   const auto own = static_cast<double>(station);
-  const bool tells_distance =
-      is_sensed_ && magnification_is_sure_ && view.agreed >= options_.agreed_for_distance;
+  const bool tells_distance = is_sensed_ && magnification_is_sure_ &&
+                              std::abs(*log_magnification_) >= options_.other_lens &&
+                              view.agreed >= options_.agreed_for_distance;
   const double centre =
       tells_distance ? SeenFrom(station, view.log_scale - *log_magnification_) : own;
   const bool sized = log_magnification_ && view.agreed >= options_.agreed_for_scale;
