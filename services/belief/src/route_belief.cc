@@ -239,9 +239,12 @@ void RouteBelief::WeighCellsAbout(const Counted& view, int best, double independ
       centre > last_station - 1.0 ? cells() - 1 : grid.CellOf(at(std::ceil(centre + 1.0)));
   std::vector<double> factors(last - first + 1, 1.0);
   for (std::size_t i = first; i <= last; ++i) {
-    const double place = AmongStations(grid.PlaceOf(i));
+    const double along = grid.PlaceOf(i);
+    const double place = AmongStations(along);
+    // Nobody has seen how things grow before the first view and after the last one.
+    const bool between = along >= stations_.front().at && along < stations_.back().at;
     const double share = std::max(0.0, 1.0 - std::abs(place - centre));
-    const std::optional<double> growth = sized ? Growth(own, place) : std::nullopt;
+    const std::optional<double> growth = sized && between ? Growth(own, place) : std::nullopt;
     const double ratio = growth ? alike + SizeFits(view, *growth) : alike;
     factors[i - first] = std::exp(independent * share * ratio);
   }
