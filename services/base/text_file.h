@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <istream>
+#include <optional>
 #include <string>
 
 #include "services/base/result.h"
@@ -17,6 +19,9 @@ namespace trailcast {
 [[nodiscard]] Result<std::string> ReadText(std::istream& stream);
 // Does the same with bytes that were read already.
 [[nodiscard]] Result<std::string> PlainText(std::string bytes);
+
+// Reads the whole number with which a file begins, as the kernel's below /proc do.
+[[nodiscard]] std::optional<std::uint64_t> ReadNumber(const std::filesystem::path& file);
 
 // Replaces the file's contents. The error names the file.
 [[nodiscard]] Result<void> WriteTextFile(const std::filesystem::path& file,

@@ -141,9 +141,10 @@ class FleetState {
 
   void On(const exchange::AgentStatus& status, Time now, std::int64_t unix_ms);
   void On(const exchange::NowAnswer& answer);
-  // Says whether that mission is a group's that a robot has by now, and forgets that a group had
-  // it.
-  bool IsGiven(const AgentId& agent, const std::string& id);
+  // Says whether that mission is a group's that a robot has by now.
+  [[nodiscard]] bool IsGiven(const MissionName& name) const;
+  // Forgets that a group had the mission, if it is a robot's.
+  void TakeFromGroups(const MissionName& name);
   void On(const mission::Report& report, std::int64_t unix_ms);
   void On(const exchange::MissionReply& reply);
   void On(const exchange::CatalogReply& reply);

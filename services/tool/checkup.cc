@@ -8,8 +8,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <map>
+
+#include "services/base/text_file.h"
 
 namespace trailcast::tool {
 namespace {
@@ -21,13 +22,6 @@ constexpr std::uint64_t kGoodBuffer_bytes = 4 * kMiB;
 constexpr std::uint64_t kLowDisk_bytes = 1024 * kMiB;
 constexpr std::uint64_t kFullDisk_bytes = 64 * kMiB;
 constexpr double kGoodClock_s = 1.0;  // ages are given in seconds
-
-std::optional<std::uint64_t> ReadNumber(const char* file) {
-  std::ifstream in(file);
-  std::uint64_t number = 0;
-  if (in >> number) return number;
-  return std::nullopt;
-}
 
 std::vector<NetworkInterface> Interfaces() {
   ifaddrs* list = nullptr;

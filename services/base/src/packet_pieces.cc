@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <fstream>
 
+#include "services/base/text_file.h"
+
 namespace trailcast {
 namespace {
 
@@ -14,12 +16,6 @@ constexpr double kFull = 0.95;
 
 constexpr std::uint64_t kAmple_bytes = 64U << 20U;
 constexpr std::uint64_t kAmple_s = 3;
-
-template <typename Value>
-bool Read(const std::filesystem::path& file, Value& value) {
-  std::ifstream stream(file);
-  return static_cast<bool>(stream >> value);
-}
 
 }  // namespace
 
@@ -35,17 +31,17 @@ std::string PacketPieces::more() const {
 }
 
 std::optional<PacketPieces> ReadPacketPieces(const std::filesystem::path& proc) {
-  PacketPieces pieces;
   const std::filesystem::path settings = proc / "sys" / "net" / "ipv4";
-  if (!Read(settings / "ipfrag_high_thresh", pieces.most_bytes) ||
-      !Read(settings / "ipfrag_time", pieces.kept_s)) {
-    return std::nullopt;
-  }
+  const auto most_bytes = ReadNumber(settings / "ipfrag_high_thresh");
+  const auto kept_s = ReadNumber(settings / "ipfrag_time");
+  if (!most_bytes || !kept_s) return std::nullopt;
   std::ifstream counts(proc / "net" / "sockstat");
   for (std::string word; counts >> word;) {
     if (word != "FRAG:") continue;
     std::uint64_t packets = 0;
-    if (counts >> word >> packets >> word >> pieces.held_bytes) return pieces;
+    std::uint64_t held_bytes = 0;
+    if (!(counts >> word >> packets >> word >> held_bytes)) break;
+    return PacketPieces{held_bytes, *most_bytes, *kept_s};
   }
   return std::nullopt;
 }

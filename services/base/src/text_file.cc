@@ -59,6 +59,13 @@ Result<std::string> ReadText(std::istream& stream) {
   return PlainText(std::move(bytes));
 }
 
+std::optional<std::uint64_t> ReadNumber(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::uint64_t number = 0;
+  if (stream >> number) return number;
+  return std::nullopt;
+}
+
 Result<void> WriteTextFile(const std::filesystem::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::trunc);
   stream << text;

@@ -167,24 +167,29 @@ std::vector<exchange::NowCommand> FleetState::TakeOpenStops(Time now) {
 }
 
 // A group's mission belongs to the robot that it is given to from then on, under the same id.
-bool FleetState::IsGiven(const AgentId& agent, const std::string& id) {
-  if (mission::IsGroup(agent.value())) {
-    return std::any_of(missions_.begin(), missions_.end(), [&](const auto& known) {
-      return known.first.second == id && !mission::IsGroup(known.first.first.value());
-    });
-  }
-  std::vector<MissionName> of_groups;
-  for (const auto& [name, record] : missions_) {
-    if (name.second == id && mission::IsGroup(name.first.value())) of_groups.push_back(name);
-  }
-  for (const MissionName& name : of_groups) missions_.Erase(name);
-  return false;
+bool FleetState::IsGiven(const MissionName& name) const {
+  const auto& [agent, id] = name;
+  if (!mission::IsGroup(agent.value())) return false;
+  return std::any_of(missions_.begin(), missions_.end(), [&id = id](const auto& known) {
+    return known.first.second == id && !mission::IsGroup(known.first.first.value());
+  });
+}
+
+void FleetState::TakeFromGroups(const MissionName& name) {
+  const auto& [agent, id] = name;
+  if (mission::IsGroup(agent.value())) return;
+  const auto of_group =
+      std::find_if(missions_.begin(), missions_.end(), [&id = id](const auto& known) {
+        return known.first.second == id && mission::IsGroup(known.first.first.value());
+      });
+  if (of_group != missions_.end()) missions_.Erase(MissionName(of_group->first));
 }
 
 void FleetState::On(const mission::Report& report, std::int64_t unix_ms) {
   if (report.state == mission::State::kPutOff) return;  // it has no outcome yet
-  if (IsGiven(report.agent, report.mission)) return;
   const MissionName name{report.agent, report.mission};
+  if (IsGiven(name)) return;
+  TakeFromGroups(name);
   mission::Record* known = missions_.Find(name);
   const bool is_new = known == nullptr;
   if (is_new) {
@@ -210,7 +215,8 @@ void FleetState::On(const exchange::MissionReply& reply) {
   // The reply has the newest first. They are taken in reverse, so that the newest stays longest.
   for (auto record = reply.missions.rbegin(); record != reply.missions.rend(); ++record) {
     const MissionName name{record->mission.agent, record->mission.id};
-    if (IsGiven(name.first, name.second)) continue;
+    if (IsGiven(name)) continue;
+    TakeFromGroups(name);
     const bool is_new = missions_.Find(name) == nullptr;
     mission::Record& known = missions_.Touch(name);
     const mission::Report heard = known.last;

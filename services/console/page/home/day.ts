@@ -55,17 +55,13 @@ export function useDay(fleet: Fleet | null, lost: boolean, now_ms: number): Day 
   const [visits, setVisits] = useState(0);
   const asked_ms = useRef(0);
 
-  // A group's mission belongs to the robot that it is given to from then on, under the same id.
-  const given = (mission: Mission) => {
-    const same = [...known.current.values()].filter((each) => each.mission === mission.mission && isOfGroup(each) !== isOfGroup(mission));
-    if (isOfGroup(mission)) return same.length > 0;
-    for (const each of same) known.current.delete(keyOf(each));
-    return false;
-  };
   const take = (missions: Mission[]) => {
     let news = false;
     for (const mission of missions) {
-      if (given(mission)) continue;
+      // A group's mission belongs to the robot that it is given to from then on, under the same id.
+      const others = [...known.current.values()].filter((each) => each.mission === mission.mission && isOfGroup(each) !== isOfGroup(mission));
+      if (isOfGroup(mission) && others.length > 0) continue;
+      for (const other of others) known.current.delete(keyOf(other));
       const key = keyOf(mission);
       const had = known.current.get(key);
       if (had && !isNewer(mission, had)) continue;
