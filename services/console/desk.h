@@ -43,7 +43,9 @@ class Desk {
     std::chrono::milliseconds reply_within{5000};   // replies to a mission or a question
     std::chrono::milliseconds ask_every{30'000};    // missions, while a page is open
     std::chrono::milliseconds looks_on{3000};       // a page counts as open for this long
-    Alerts alerts{};                                // alerts from before
+    // This is the time by which robots are driven.
+    std::function<Driving::Time()> driving_clock = &std::chrono::steady_clock::now;
+    Alerts alerts{};  // alerts from before
     // This gets what is to be kept of alerts, on the desk's thread, and must not wait.
     std::function<void(std::string)> keep_alerts{};
     // This gets all alerts, and the last missions, several times a second, likewise.
@@ -86,7 +88,7 @@ class Desk {
   [[nodiscard]] Result<void> Forget(const AgentId& robot);
   // Passes on how a robot that teaches is to be driven, and waits for nothing.
   [[nodiscard]] Driving::Verdict Drive(const AgentId& robot, const Driving::Word& word) {
-    return driving_.Hear(robot, word, Clock::now());
+    return driving_.Hear(robot, word, options_.driving_clock());
   }
   // These return a page of what servers keep, the newest first.
   [[nodiscard]] Result<exchange::MissionReply> Missions(const mission::Query& query);

@@ -165,8 +165,9 @@ void Desk::Say(Clock::time_point now) {
 
 void Desk::Hear(const exchange::Message& message, Clock::time_point now) {
   state_.Handle(message, now, NowUnixMs());
-  if (const auto* status = std::get_if<exchange::AgentStatus>(&message))
-    driving_.Note(*status, now);
+  if (const auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+    driving_.Note(*status, options_.driving_clock());
+  }
   for (const auto& errand : errands_) errand->Hear(message);
 }
 

@@ -268,6 +268,13 @@ TEST_F(WebTest, WhatMakesARobotStandIsObeyedWhateverComesWithIt) {
 }
 
 TEST_F(WebTest, ARobotThatTeachesIsDrivenByOneAtATime) {
+  // However long the requests take, no driver has been silent for long enough to lose the seat.
+  Desk desk{AgentId("counter"), bus_.Open(ConsoleTopics()),
+            Desk::Options{.driving_clock = [] { return Driving::Time(std::chrono::hours(9)); }}};
+  const auto web = Web::Open(desk, atlas_, nullptr, "localhost", 0, {}).value();
+  httplib::Client client("localhost", web->port());
+  client.set_logger(ExpectAsDescribed());
+  client.set_read_timeout(test::kLongEnough);
   const auto robot = bus_.Open(program::WithAgents(exchange::TeachingTopics()));
   exchange::AgentStatus status;
   status.agent = AgentId("robot1");
@@ -276,12 +283,12 @@ TEST_F(WebTest, ARobotThatTeachesIsDrivenByOneAtATime) {
   ASSERT_TRUE(robot->Publish(status));
   ASSERT_TRUE(test::Await(
       [&] {
-        const json state = json::parse(Client().Get("/api/state")->body);
+        const json state = json::parse(client.Get("/api/state")->body);
         return state["robots"][0].value("teaches", false);
       },
       "the robot to teach"));
   const auto drive = [&](const char* body) {
-    return Client().Post("/api/robots/robot1/drive", body, "application/json")->status;
+    return client.Post("/api/robots/robot1/drive", body, "application/json")->status;
   };
   EXPECT_EQ(drive(R"({"linear_mps":0.4,"turn_radps":-0.2,"driver":"ann","said_ms":100000})"), 200);
   EXPECT_EQ(drive(R"({"linear_mps":1,"turn_radps":0,"driver":"bob","said_ms":5})"), 409);
@@ -293,7 +300,7 @@ TEST_F(WebTest, ARobotThatTeachesIsDrivenByOneAtATime) {
       const auto* heard = std::get_if<exchange::DriveCommand>(&message);
       if (heard == nullptr) continue;
       EXPECT_EQ(heard->agent, AgentId("robot1"));
-      EXPECT_EQ(heard->client, AgentId("desk"));
+      EXPECT_EQ(heard->client, AgentId("counter"));
       EXPECT_EQ(heard->linear_mps, 0.4);
       EXPECT_EQ(heard->turn_radps, -0.2);
       return;
