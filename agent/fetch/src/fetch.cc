@@ -31,11 +31,13 @@ class Fetching {
       if (auto* error = std::get_if<Error>(&*item)) return tl::unexpected(*error);
       if (auto* route = std::get_if<route::RouteInfo>(&*item)) {
         announced_ = route->segment_count;
-        estimate_.emplace(news_at_);
         told_at_ = news_at_;
       }
     }
-    if (link.fetched() > fetched_) news_at_ = steady_clock::now();
+    if (link.fetched() > fetched_) {
+      news_at_ = steady_clock::now();
+      estimate_.Note(news_at_, link.fetched());
+    }
     fetched_ = link.fetched();
     held_ = link.held_before() + fetched_;
     if (options_.stop()) return Fail(ErrorCode::kUnavailable, "stopped by a signal; {}", SoFar());
@@ -55,19 +57,22 @@ class Fetching {
   }
   void Tell() {
     const auto now = steady_clock::now();
-    if (!estimate_ || now - told_at_ < kTellEvery) return;
+    if (announced_ == 0 || now - told_at_ < kTellEvery) return;
     told_at_ = now;
-    estimate_->Note(now, fetched_);
-    const auto left = estimate_->Left(announced_ - std::min(announced_, held_));
-    spdlog::info("{} of {} segments of '{}' are here, {}", held_, announced_, options_.route,
-                 left ? fmt::format("about {:.0f} s left", left->count()) : "none came lately");
+    estimate_.Note(now, fetched_);
+    const auto left = estimate_.Left(announced_ - std::min(announced_, held_));
+    const std::string outlook = left ? fmt::format(", about {:.0f} s left", left->count())
+                                : now - news_at_ > kTellEvery ? ", none came lately"
+                                                              : "";
+    spdlog::info("{} of {} segments of '{}' are here{}", held_, announced_, options_.route,
+                 outlook);
   }
 
   const FollowerLinkOptions& options_;
   std::uint32_t announced_ = 0;
   std::uint32_t fetched_ = 0;  // by this run
   std::uint32_t held_ = 0;     // at present, including those of earlier runs
-  std::optional<FetchEstimate> estimate_;
+  FetchEstimate estimate_;
   steady_clock::time_point news_at_ = steady_clock::now();
   steady_clock::time_point told_at_ = news_at_;
 };

@@ -96,7 +96,7 @@ std::string SpeedText(const RunLog& log, const Spell& spell) {
   return fastest_mps > 0.0 ? fmt::format("at up to {:.2f} m/s", fastest_mps) : "standing";
 }
 
-const char* Meaning(Phase phase) {
+const char* Meaning(Phase phase, bool has_odometry) {
   switch (phase) {
     case Phase::kSeeking:
       return "looking for the route's start";
@@ -105,7 +105,7 @@ const char* Meaning(Phase phase) {
     case Phase::kDistant:
       return "only distant features, slowly on";
     case Phase::kBlind:
-      return "blind, on by odometry";
+      return has_odometry ? "blind, on by odometry" : "blind, on by the commanded speed";
     case Phase::kCovered:
       return "something covered the view";
     default:
@@ -117,9 +117,9 @@ const char* Meaning(Phase phase) {
 // features that it saw.
 std::string TellSpell(const Told& told, const Spell& spell, double driven_m) {
   const RunLog& log = told.log;
-  const bool by_distance =
-      log.frames[spell.first].driven_m.has_value() && spell.phase != Phase::kLooking;
-  std::string text = Meaning(spell.phase);
+  const bool has_odometry = log.frames[spell.first].driven_m.has_value();
+  const bool by_distance = has_odometry && spell.phase != Phase::kLooking;
+  std::string text = Meaning(spell.phase, has_odometry);
   text += by_distance ? fmt::format(" for {:.2f} m ({} frames, {})", driven_m,
                                     spell.end - spell.first, SpeedText(log, spell))
                       : fmt::format(" for {} frames", spell.end - spell.first);

@@ -60,7 +60,7 @@ class ConsoleFleetTest : public RobotsTest {
   }
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", port_);
-    client.set_read_timeout(20);
+    client.set_read_timeout(test::kLongEnough);
     client.set_logger(console::ExpectAsDescribed());
     return client;
   }

@@ -31,7 +31,7 @@ class ConsoleWithKeysTest : public SecuredFleetTest {
   }
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", port_);
-    client.set_read_timeout(30);
+    client.set_read_timeout(test::kLongEnough);
     client.set_logger(console::ExpectAsDescribed());
     return client;
   }

@@ -9,6 +9,7 @@
 
 #include "tests/scenario/console/console_fleet.h"
 #include "tests/scenario/console/webdriver.h"
+#include "tests/support/await.h"
 #include "tests/support/places.h"
 #include "tests/support/strangers/self_signed.h"
 
@@ -45,7 +46,7 @@ class ConsoleUsersTest : public ConsoleFleetTest {
     client->set_ca_cert_path(files_.certificate.c_str());
     client->enable_server_certificate_verification(true);
     client->set_connection_timeout(20);
-    client->set_read_timeout(30);
+    client->set_read_timeout(test::kLongEnough);
     client->set_logger(console::ExpectAsDescribed());
     return client;
   }

@@ -13,6 +13,7 @@
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
 #include "services/users/secret.h"
+#include "tests/support/await.h"
 #include "tests/support/described.h"
 #include "tests/support/temp_dir.h"
 
@@ -68,7 +69,7 @@ class AccessTest : public testing::Test {
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
     client.set_logger(ExpectAsDescribed());
-    client.set_read_timeout(20);
+    client.set_read_timeout(test::kLongEnough);
     return client;
   }
   Got Get(const std::string& path, const httplib::Headers& headers = {}) {

@@ -121,7 +121,7 @@ class MetricsPageTest : public testing::Test {
  protected:
   std::string Page() {
     httplib::Client client("localhost", web_->port());
-    client.set_read_timeout(20);
+    client.set_read_timeout(test::kLongEnough);
     const auto got = client.Get("/metrics");
     if (!got) return "";
     EXPECT_EQ(got->status, 200);
@@ -197,7 +197,7 @@ TEST_F(MetricsPageTest, HasAllThatDashboardAndAlertsName) {
 
 TEST_F(MetricsPageTest, CountsCommandsAndPages) {
   httplib::Client client("localhost", web_->port());
-  client.set_read_timeout(20);
+  client.set_read_timeout(test::kLongEnough);
   (void)client.Post("/api/robots/robot1/stop", "{}", "application/json");
   EXPECT_THAT(Page(),
               HasSubstr("trailcast_commands_total{order=\"stop\",result=\"unanswered\"} 1\n"));

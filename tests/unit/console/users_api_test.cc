@@ -8,6 +8,7 @@
 #include "services/console/web.h"
 #include "services/exchange/in_process_exchange.h"
 #include "services/users/secret.h"
+#include "tests/support/await.h"
 #include "tests/support/described.h"
 #include "tests/support/temp_dir.h"
 
@@ -49,7 +50,7 @@ class UsersApiTest : public testing::Test {
   [[nodiscard]] httplib::Client Client(const std::string& token = "administers") const {
     httplib::Client client("localhost", web_->port());
     client.set_logger(ExpectAsDescribed());
-    client.set_read_timeout(20);
+    client.set_read_timeout(test::kLongEnough);
     client.set_default_headers({{"Authorization", "Bearer " + token}});
     return client;
   }

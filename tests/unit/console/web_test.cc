@@ -31,7 +31,7 @@ class WebTest : public testing::Test {
   [[nodiscard]] httplib::Client Client() const {
     httplib::Client client("localhost", web_->port());
     client.set_logger(ExpectAsDescribed());
-    client.set_read_timeout(20);
+    client.set_read_timeout(test::kLongEnough);
     return client;
   }
 

@@ -201,6 +201,17 @@ TEST(Story, ItsPiecesAreWhatIsTold) {
   EXPECT_THAT(story.missing, testing::ElementsAre(HasSubstr("breaks off")));
 }
 
+TEST(Story, OnlyARunWithOdometryGoesOnByIt) {
+  for (const bool has_odometry : {true, false}) {
+    SampleRun run;
+    if (!has_odometry) run.row().driven_m = run.row().x_m = run.row().y_m = std::nullopt;
+    run.HandOver(0, 8).Frames(30).Phase(Phase::kBlind, "nothing in view").Frames(10);
+    const std::string text = MakeStory(run.Log(), 1).happened[0].text;
+    EXPECT_THAT(text, HasSubstr(has_odometry ? "blind, on by odometry"
+                                             : "blind, on by the commanded speed"));
+  }
+}
+
 TEST(FrameWords, SayWhatTheRobotWasAt) {
   SampleRun run;
   run.HandOver(0, 8).Frames(30);

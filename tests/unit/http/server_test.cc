@@ -37,7 +37,7 @@ class HttpServerTest : public testing::Test {
   }
   [[nodiscard]] int Hello() {
     httplib::Client client("127.0.0.1", server_.port());
-    client.set_read_timeout(20);
+    client.set_read_timeout(test::kLongEnough);
     const auto got = client.Get("/hello");
     return got ? got->status : 0;
   }
@@ -326,7 +326,7 @@ TEST_F(HttpServerTest, OneAddressDoesNotTakeAllThreads) {
   for (int i = 0; i < 10; ++i) silent.push_back(std::make_unique<RawConnection>(shared.port()));
   httplib::Client other("127.0.0.1", shared.port());
   other.set_interface("127.0.0.2");
-  other.set_read_timeout(20);
+  other.set_read_timeout(test::kLongEnough);
   const auto hello = other.Get("/hello");
   ASSERT_TRUE(hello) << httplib::to_string(hello.error());
   EXPECT_EQ(hello->body, "hello");

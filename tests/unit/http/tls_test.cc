@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "services/http/server.h"
+#include "tests/support/await.h"
 #include "tests/support/strangers/hostile_client.h"
 #include "tests/support/strangers/self_signed.h"
 #include "tests/support/temp_dir.h"
@@ -41,7 +42,7 @@ class TlsTest : public testing::Test {
     auto client = std::make_unique<httplib::SSLClient>("localhost", server_.port());
     client->set_ca_cert_path(files_.certificate.c_str());
     client->enable_server_certificate_verification(true);
-    client->set_read_timeout(20);
+    client->set_read_timeout(test::kLongEnough);
     return client;
   }
   [[nodiscard]] int Hello() const {
