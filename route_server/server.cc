@@ -231,6 +231,7 @@ void Server::NoteViews(const exchange::RouteAnnouncement& announcement) {
 void Server::Serve() {
   for (exchange::Message& message : exchange_->Take(WaitForMessages())) Receive(std::move(message));
   ServeRequests();
+  TellKeptPhotos();
   const auto now = steady_clock::now();
   const auto outgoing = Say(now);
   TellTroubles();

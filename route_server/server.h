@@ -113,6 +113,7 @@ class Server {
   // Takes photos from robots and gives them to operators, or answers a question about them. Returns
   // false for a message that is about something else.
   [[nodiscard]] bool ServePhotos(const exchange::Message& message);
+  void TellKeptPhotos();
   [[nodiscard]] bool AnswerPhotos(const exchange::Message& request);
   [[nodiscard]] std::string ClosedIn(const std::string& orders);
   void Replan(const AgentId& agent);

@@ -19,8 +19,13 @@ bool Server::ServePhotos(const exchange::Message& message) {
   } else if (auto answer = photos_->Give(*request)) {
     replies_.emplace_back(*std::move(answer));
   }
-  for (const std::string& note : photos_->TakeNotes()) spdlog::info("{}", note);
   return true;
+}
+
+void Server::TellKeptPhotos() {
+  if (!photos_) return;
+  for (exchange::PhotoRequest& kept : photos_->TakeKept()) replies_.emplace_back(std::move(kept));
+  for (const std::string& note : photos_->TakeNotes()) spdlog::info("{}", note);
 }
 
 bool Server::AnswerPhotos(const exchange::Message& request) {

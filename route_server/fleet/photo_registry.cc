@@ -27,6 +27,7 @@ std::optional<exchange::PhotoRequest> PhotoRegistry::Take(const exchange::PhotoP
     if (!answer.kept) answer.refusal = "another photo is called so";
     return answer;
   }
+  if (writer_.IsWaiting(photo->id)) return std::nullopt;  // it hears when that is done
   UnderWay& under_way = under_way_.Touch(piece.holder);
   if (under_way.id != photo->id) under_way = {.id = photo->id};
   std::vector<std::uint8_t>& bytes = under_way.bytes;
@@ -40,21 +41,32 @@ std::optional<exchange::PhotoRequest> PhotoRegistry::Take(const exchange::PhotoP
     answer.offset = 0;
     return answer;
   }
-  answer.refusal = Keep(*photo, bytes);
-  answer.kept = answer.refusal.empty();
+  if (writer_.full()) {
+    answer.refusal = fmt::format("{} photos wait for its disk, which is slow: it takes more later",
+                                 PhotoWriter::kMostWaiting);
+    return answer;
+  }
+  writer_.Put(*photo, std::move(bytes));
   under_way_.Erase(piece.holder);
-  return answer;
+  return std::nullopt;
 }
 
-std::string PhotoRegistry::Keep(const photos::Photo& photo, const std::vector<std::uint8_t>& jpeg) {
-  const auto gone = folder_->Add(photo, jpeg);
-  if (!gone) return PlainText(gone.error().message, exchange::kMaxLineBytes);
-  notes_.push_back(fmt::format("photo {} of {} by {} in mission {}", photo.id,
-                               photos::SpotText(photo), photo.robot.value(), photo.mission));
-  if (!gone->empty()) {
-    notes_.push_back(fmt::format("{} photos went for it, the oldest: --photos-mb", gone->size()));
+std::vector<exchange::PhotoRequest> PhotoRegistry::TakeKept() {
+  std::vector<exchange::PhotoRequest> told;
+  for (const auto& [photo, gone] : writer_.TakeWritten()) {
+    told.push_back({.client = server_, .holder = photo.robot, .photo = photo.id});
+    if (!gone) {
+      told.back().refusal = PlainText(gone.error().message, exchange::kMaxLineBytes);
+      continue;
+    }
+    told.back().kept = true;
+    notes_.push_back(fmt::format("photo {} of {} by {} in mission {}", photo.id,
+                                 photos::SpotText(photo), photo.robot.value(), photo.mission));
+    if (!gone->empty()) {
+      notes_.push_back(fmt::format("{} photos went for it, the oldest: --photos-mb", gone->size()));
+    }
   }
-  return "";
+  return told;
 }
 
 std::optional<exchange::PhotoPiece> PhotoRegistry::Give(const exchange::PhotoRequest& request) {

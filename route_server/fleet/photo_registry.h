@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "route_server/fleet/photo_writer.h"
 #include "services/base/newest_map.h"
 #include "services/exchange/messages.h"
 #include "services/photos/photo_folder.h"
@@ -24,10 +25,14 @@ class PhotoRegistry {
   static constexpr std::size_t kMostAPage = 200;
 
   PhotoRegistry(AgentId server, std::unique_ptr<photos::PhotoFolder> folder)
-      : server_(std::move(server)), folder_(std::move(folder)) {}
+      : server_(std::move(server)), folder_(std::move(folder)), writer_(*folder_) {}
 
-  // Takes a piece, and returns what its robot is told. Nothing if it is for another server.
+  // Takes a piece, and returns what its robot is told at once: nothing if it is for another server,
+  // or if its photo is whole and being written, of which TakeKept tells.
   [[nodiscard]] std::optional<exchange::PhotoRequest> Take(const exchange::PhotoPiece& piece);
+  // Returns what robots are told of the photos that have been written since the last call, or could
+  // not be written.
+  [[nodiscard]] std::vector<exchange::PhotoRequest> TakeKept();
   // Returns the piece that an operator asks for. Nothing if another server is asked.
   [[nodiscard]] std::optional<exchange::PhotoPiece> Give(const exchange::PhotoRequest& request);
   // Answers a question in words (photos::AsksForPhotos): a line for each photo, the last taken
@@ -42,13 +47,12 @@ class PhotoRegistry {
     std::string id{};
     std::vector<std::uint8_t> bytes{};
   };
-  // Returns why it is not kept, or an empty text.
-  [[nodiscard]] std::string Keep(const photos::Photo& photo, const std::vector<std::uint8_t>& jpeg);
 
   AgentId server_;
   std::unique_ptr<photos::PhotoFolder> folder_;
   NewestMap<AgentId, UnderWay> under_way_{kMostUnderWay};
   std::vector<std::string> notes_;
+  PhotoWriter writer_;  // ends first
 };
 
 }  // namespace trailcast::server

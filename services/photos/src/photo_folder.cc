@@ -7,8 +7,6 @@
 #include <system_error>
 #include <utility>
 
-#include "services/base/durable_file.h"
-
 namespace trailcast::photos {
 namespace {
 
@@ -19,14 +17,16 @@ constexpr const char* kWordsEnding = ".photo";
 
 }  // namespace
 
-Result<std::unique_ptr<PhotoFolder>> PhotoFolder::Open(fs::path folder, std::uint64_t most_bytes) {
+Result<std::unique_ptr<PhotoFolder>> PhotoFolder::Open(fs::path folder, std::uint64_t most_bytes,
+                                                       Write write) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed || ::access(folder.c_str(), R_OK | W_OK | X_OK) != 0) {
     return Fail(ErrorCode::kUnavailable, "no photos are kept: nothing can be written in {}",
                 folder.string());
   }
-  std::unique_ptr<PhotoFolder> opened(new PhotoFolder(std::move(folder), most_bytes));
+  std::unique_ptr<PhotoFolder> opened(
+      new PhotoFolder(std::move(folder), most_bytes, std::move(write)));
   opened->Load();
   return opened;
 }
@@ -79,17 +79,21 @@ void PhotoFolder::Note(Photo photo) {
   photos_[photo.id] = std::move(photo);
 }
 
-// The words go first, so that a picture without them is known to be no photo any more.
-void PhotoFolder::Drop(const std::string& id) {
+bool PhotoFolder::Forget(const std::string& id) {
   const auto photo = photos_.find(id);
-  if (photo == photos_.end()) return;
-  std::error_code stays;
-  fs::remove(Words(id), stays);
-  fs::remove(Picture(id), stays);
+  if (photo == photos_.end()) return false;
   bytes_ -= photo->second.bytes;
   order_.erase(turns_.at(id));
   turns_.erase(id);
   photos_.erase(photo);
+  return true;
+}
+
+// The words go first, so that a picture without them is known to be no photo any more.
+void PhotoFolder::RemoveFiles(const std::string& id) const {
+  std::error_code stays;
+  fs::remove(Words(id), stays);
+  fs::remove(Picture(id), stays);
 }
 
 Result<std::vector<Photo>> PhotoFolder::Add(const Photo& photo,
@@ -105,15 +109,14 @@ Result<std::vector<Photo>> PhotoFolder::Add(const Photo& photo,
     while (!order_.empty() &&
            (bytes_ + jpeg.size() > most_bytes_ || photos_.size() >= kMostPhotos)) {
       gone.push_back(photos_.at(order_.begin()->second));
-      Drop(gone.back().id);
+      Forget(gone.back().id);
     }
   }
-  // A slow disk keeps no other thread waiting.
-  auto kept = ReplaceFile(Picture(photo.id), {jpeg.begin(), jpeg.end()});
-  if (kept) kept = ReplaceFile(Words(photo.id), ToText(photo) + "\n");
+  for (const Photo& each : gone) RemoveFiles(each.id);
+  auto kept = write_(Picture(photo.id), {jpeg.begin(), jpeg.end()});
+  if (kept) kept = write_(Words(photo.id), ToText(photo) + "\n");
   if (!kept) {
-    std::error_code stays;
-    fs::remove(Picture(photo.id), stays);
+    RemoveFiles(photo.id);
     return tl::unexpected(kept.error());
   }
   const std::scoped_lock lock(mutex_);
@@ -163,8 +166,11 @@ Result<std::vector<std::uint8_t>> PhotoFolder::Read(const std::string& id, std::
 }
 
 void PhotoFolder::Remove(const std::string& id) {
-  const std::scoped_lock lock(mutex_);
-  Drop(id);
+  const bool was_there = [&] {
+    const std::scoped_lock lock(mutex_);
+    return Forget(id);
+  }();
+  if (was_there) RemoveFiles(id);
 }
 
 std::size_t PhotoFolder::size() const {

@@ -18,6 +18,8 @@
 #include "tests/support/await.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/temp_dir.h"
+#include "tests/unit/photos/a_photo.h"
+#include "tests/unit/photos/held_disk.h"
 
 namespace trailcast::server {
 namespace {
@@ -42,7 +44,8 @@ class SlowStore : public test::MemoryStore {
 class ServerTest : public testing::Test {
  protected:
   void Start(const QuotaOptions& quotas = {}, const std::filesystem::path& junctions = {},
-             const std::filesystem::path& missions = {}) {
+             const std::filesystem::path& missions = {},
+             std::unique_ptr<photos::PhotoFolder> photos = nullptr) {
     auto store = std::make_unique<SlowStore>();
     store_ = store.get();
     auto server = Server::Open(AgentId("server"), std::move(store),
@@ -58,6 +61,7 @@ class ServerTest : public testing::Test {
     if (!missions.empty()) {
       ASSERT_TRUE(server_->KeepMissions(store::MissionStore::Open(missions).value()));
     }
+    if (photos) server_->KeepPhotos(std::move(photos));
     running_ = std::thread([this] { (void)server_->Run([this] { return stopping_.load(); }); });
   }
   void TearDown() override {
@@ -197,6 +201,34 @@ TEST_F(ServerTest, HundredsOfSlowQueriesHoldUpNeitherReceiptsNorItsStatus) {
   EXPECT_LT(answered, kClients / 2) << "a receipt does not wait for them";
   EXPECT_TRUE(Hears(*desk, count)) << "all are answered in the end";
   EXPECT_GE(statuses, 2) << "it tells of itself each second meanwhile";
+}
+
+TEST_F(ServerTest, APhotoOnASlowDiskHoldsUpNoMessages) {
+  const test::TempDir folder;
+  photos::HeldDisk disk;
+  Start({}, {}, {}, photos::PhotoFolder::Open(folder.path(), 1'000'000, disk.Write()).value());
+  const auto robot = bus_.Open(program::WithAgents(exchange::OnDutyTopics()));
+  const auto desk = bus_.Open(exchange::DispatcherTopics());
+  const auto jpeg = photos::SomeJpeg(100);
+  const photos::Photo photo = photos::APhoto('a', jpeg);
+  ASSERT_TRUE(robot->Publish(exchange::PhotoPiece{.holder = photo.robot,
+                                                  .client = AgentId("server"),
+                                                  .photo = photo.id,
+                                                  .words = ToText(photo),
+                                                  .bytes = jpeg}));
+  EXPECT_TRUE(desk->Publish(exchange::NowCommand{.client = AgentId("desk"), .number = 1}));
+  bool is_kept = false;
+  EXPECT_TRUE(Hears(*robot, [&](const exchange::Message& message) {
+    is_kept = is_kept || std::holds_alternative<exchange::PhotoRequest>(message);
+    const auto* command = std::get_if<exchange::NowCommand>(&message);
+    return command != nullptr && command->relayed;
+  })) << "a stop is passed on while the disk is busy";
+  EXPECT_FALSE(is_kept);
+  disk.Let();
+  EXPECT_TRUE(Hears(*robot, [&](const exchange::Message& message) {
+    const auto* told = std::get_if<exchange::PhotoRequest>(&message);
+    return told != nullptr && told->photo == photo.id && told->kept;
+  }));
 }
 
 TEST_F(ServerTest, ADeliveredRouteIsPartOfTheNetworkAtOnce) {
