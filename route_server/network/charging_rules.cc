@@ -19,8 +19,8 @@ std::string Charges(const RobotSeen& robot, const network::ChargeLimits& limits)
   const std::string now = robot.battery_percent
                               ? fmt::format("its battery is at {} %", *robot.battery_percent)
                               : "it does not tell its battery";
-  return fmt::format("charges at {}: {}, and it goes on at {} %, or when it is told to resume",
-                     robot.dock, now, limits.until_percent);
+  return fmt::format("{}{}: {}, and it goes on at {} %, or when it is told to resume",
+                     network::kChargesAt, robot.dock, now, limits.until_percent);
 }
 
 bool IsFull(const RobotSeen& robot, const network::ChargeLimits& limits) {

@@ -160,6 +160,7 @@ exchange::NetworkReply NetworkRegistry::Answer(const exchange::NetworkRequest& r
 
 Result<Lines> NetworkRegistry::Answered(const std::string& words) {
   if (words.empty()) return All();
+  if (words == network::kAsksCharging) return ChargingLines();
   if (const auto goal = network::ParseWhatPasses(words)) {
     return network::ParseGoal(*goal).and_then([&](const Goal& at) { return WhatPasses(at); });
   }
@@ -337,6 +338,14 @@ Result<Lines> NetworkRegistry::Forget(const std::string& name) {
   return Lines{network::ToText(*called)};
 }
 
+Lines NetworkRegistry::ChargingLines() const {
+  Lines lines;
+  for (const network::Charging& each : charging_) {
+    lines.push_back(PlainText(network::ToText(each), exchange::kMaxLineBytes));
+  }
+  return lines;
+}
+
 Result<Lines> NetworkRegistry::All() {
   if (auto known = Know({}); !known) return tl::unexpected(known.error());
   Lines lines;
@@ -370,9 +379,7 @@ Result<Lines> NetworkRegistry::All() {
     lines.back() = PlainText(TakenText(lines.back(), holders->second), exchange::kMaxLineBytes);
   }
   if (charge_limits_) lines.push_back(network::ToText(charge_limits_));
-  for (const network::Charging& each : charging_) {
-    lines.push_back(PlainText(network::ToText(each), exchange::kMaxLineBytes));
-  }
+  for (std::string& line : ChargingLines()) lines.push_back(std::move(line));
   for (const std::size_t each : Open()) {
     network::Proposal proposal = proposed_[each].proposal;
     auto called = Called(std::move(proposal.junction));

@@ -194,6 +194,7 @@ class NetworkRegistry {
   [[nodiscard]] Result<std::vector<std::size_t>> OpenAt(const network::Junction& junction) const;
   void DropProposals(const route::RouteKey& key);
   [[nodiscard]] Result<std::vector<std::string>> All();
+  [[nodiscard]] std::vector<std::string> ChargingLines() const;
   // Answers a question; an empty one means everything.
   [[nodiscard]] Result<std::vector<std::string>> Answered(const std::string& words);
   [[nodiscard]] Result<std::vector<std::string>> WayTo(const network::Question& question);

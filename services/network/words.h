@@ -106,9 +106,12 @@ struct LostSection {
 // This tells that a robot charges, or why it does not yet.
 struct Charging {
   std::string robot{};
-  std::string text{};  // one line for people
+  std::string text{};  // one line for people; it begins with kChargesAt while the robot charges
   bool operator==(const Charging&) const = default;
 };
+inline constexpr std::string_view kChargesAt = "charges at ";
+// This question asks for the lines of those alone.
+inline constexpr std::string_view kAsksCharging = "charging";
 
 // This is the end of a condition that ends where its route does.
 inline constexpr double kToTheEnd_m = 1e7;

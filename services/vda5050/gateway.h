@@ -16,6 +16,7 @@
 #include "services/exchange/route_exchange.h"
 #include "services/fleet/mission_question.h"
 #include "services/vda5050/broker_link.h"
+#include "services/vda5050/charging_watch.h"
 #include "services/vda5050/graph.h"
 #include "services/vda5050/protocol.h"
 #include "services/vda5050/vehicle.h"
@@ -101,6 +102,7 @@ class Gateway {
   const Options options_;
   std::map<AgentId, Robot> robots_;
   std::set<AgentId> left_out_;  // and told so
+  ChargingWatch charging_{self_};
   std::optional<Graph> graph_{};
   std::optional<NetworkQuestion> network_question_{};
   Time network_at_{};

@@ -29,8 +29,9 @@ and ends. Edges may have any ids. What is released is driven, and a pause or can
 'trailcast pause' and 'trailcast cancel' are. None of it is an emergency stop: a robot that is out
 of reach drives on to the end of what is released.
 The state has fields that robots tell nothing of. --vouch-for-emergency-stops has it say of all that
-no emergency stop is pressed, no protective field violated, and none is charging: whoever gives it
-vouches that a fleet manager need not know. Run one gateway for a fleet.
+no emergency stop is pressed, no protective field violated, and none is charging but those that a
+route server has sent to a dock: whoever gives it vouches that a fleet manager need not know. Run
+one gateway for a fleet.
 Exit status: 0 stopped by a signal, 1 failed, 2 wrong usage.)";
 
 struct GatewayOptions {

@@ -43,6 +43,8 @@ class Vehicle {
   void TakeInstantActions(std::string_view payload, Time now);
   // Reports that a message was not taken at all.
   void Refuse(Fault fault) { rejected_ = std::move(fault); }
+  // Notes the words in which a server says that it charges; an empty text if none does.
+  void NoteCharging(std::string words) { charging_ = std::move(words); }
   // Sends the robot on along what is released, and notes what it has reached.
   void Tick(const Graph* graph, Time now);
   // Returns what is to be published now, again and again.
@@ -146,6 +148,7 @@ class Vehicle {
   bool gone_ = false;
   Time heard_at_{};
   std::optional<network::Place> stood_{};  // where it said last that it stands
+  std::string charging_{};                 // in a server's words; empty: none says so
   std::string foreign_{};                  // the mission that it does for somebody else
 
   std::optional<Held> held_{};

@@ -77,6 +77,7 @@ Result<void> Gateway::Step(Time now) {
   }
   AskServers(now);
   for (auto& [name, robot] : robots_) {
+    robot.vehicle.NoteCharging(charging_.WordsOf(name.value(), now));
     robot.vehicle.Tick(graph(), now);
     for (const exchange::Message& message : robot.vehicle.Due(now)) {
       const auto said = exchange_->Publish(message);  // what was not sent is said again
@@ -179,6 +180,8 @@ void Gateway::AskServers(Time now) {
     missions_question_.emplace(OpenMissions(self_));
   }
   if (missions_question_) missions_question_->Ask(*exchange_, now);
+  // If it cannot be sent, the next one is.
+  if (const auto question = charging_.Due(now)) (void)exchange_->Publish(*question);
 
   if (network_question_ && now - network_question_->began > kNetworkWithin) {
     network_question_.reset();
@@ -205,6 +208,7 @@ void Gateway::AskServers(Time now) {
 }
 
 void Gateway::Hear(const exchange::NetworkReply& reply, Time now) {
+  charging_.Hear(reply, now);
   if (!network_question_ || network_question_->has_network || reply.client != self_ ||
       reply.request != network_question_->request.request) {
     return;

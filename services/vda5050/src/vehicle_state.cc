@@ -18,6 +18,10 @@ constexpr std::size_t kMostWords = 512;
 // A robot that has not answered a mission for so long is reported.
 constexpr std::chrono::milliseconds kAnswersMission{5000};
 
+const char* PowerOf(Version version) {
+  return version == Version::k3_0 ? "powerSupply" : "batteryState";
+}
+
 Json StepJson(const Step& step, const char* id) {
   return {{id, step.id}, {"sequenceId", step.sequence}, {"released", step.released}};
 }
@@ -117,6 +121,7 @@ Json Vehicle::Events(Time now) const {
   }
   state["safetyState"] = {{is_new ? "activeEmergencyStop" : "eStop", "NONE"},
                           {"fieldViolation", false}};
+  state[PowerOf(identity_.version)] = {{"charging", !charging_.empty()}};
   return state;
 }
 
@@ -129,15 +134,19 @@ Json Vehicle::State(Time now) const {
   }
   state["velocity"] = {{"vx", program::Rounded(status_.speed_mps, 100.0)}};
   const int battery = status_.battery_percent ? *status_.battery_percent : battery_.value_or(0);
-  state[is_new ? "powerSupply" : "batteryState"] = {
-      {is_new ? "stateOfCharge" : "batteryCharge", std::min(battery, 100)}, {"charging", false}};
+  state[PowerOf(identity_.version)][is_new ? "stateOfCharge" : "batteryCharge"] =
+      std::min(battery, 100);
   Json information = Json::array();
   information.push_back(Information(
       "NOT_TOLD_BY_ROBOT",
-      fmt::format("{}the emergency stop, protective fields and charging have the values that the "
-                  "gateway's operator vouches for",
-                  status_.battery_percent ? "" : "the battery, "),
+      fmt::format("{}the emergency stop{} protective fields have the values that the gateway's "
+                  "operator vouches for",
+                  status_.battery_percent ? "" : "the battery, ",
+                  charging_.empty() ? ", charging and" : " and"),
       identity_.version));
+  if (!charging_.empty()) {
+    information.push_back(Information("CHARGES", charging_, identity_.version));
+  }
   if (!status_.detail.empty()) {
     information.push_back(Information("ROBOT_SAYS", status_.detail, identity_.version));
   }

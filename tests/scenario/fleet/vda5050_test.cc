@@ -52,10 +52,11 @@ class Vda5050Test : public RobotsTest {
     server_ = Server();
     const Ended delivered = RunAgent({"deliver", "--store", Path("routes.db"), "--name", "scout"});
     ASSERT_EQ(delivered.status, 0) << delivered.output;
-    robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv"), "--sim-battery", "60"});
+    robot_ = Robot("robot1", {"--sim-truth", Path("truth.csv"), "--sim-battery", BatteryMinutes()});
     agent_ = Serve("robot1");
     ASSERT_TRUE(agent_->WaitForOutput("available as 'robot1'")) << agent_->output();
   }
+  [[nodiscard]] virtual std::string BatteryMinutes() const { return "60"; }
   [[nodiscard]] virtual std::string BrokerSettings() { return "allow_anonymous true\n"; }
   // Returns how a fleet manager's clients connect.
   [[nodiscard]] virtual Words Connection() const { return {"-h", "127.0.0.1", "-p", port_}; }
@@ -194,6 +195,31 @@ TEST_F(Vda5050Test, AnOrderIsDrivenThoughTheBrokerIsKilledAndItsRobotObeys) {
   ASSERT_TRUE(Connected("ONLINE")) << gateway->output();
   gateway->Signal(SIGKILL);
   EXPECT_TRUE(Connected("CONNECTION_BROKEN")) << heard_->output();
+}
+
+class Vda5050ChargingTest : public Vda5050Test {
+ protected:
+  std::string BatteryMinutes() const override { return "3"; }
+};
+
+TEST_F(Vda5050ChargingTest, ARobotThatItsServerHasSentToADockIsToldAsCharging) {
+  Listen();
+  const auto gateway = Gateway("gateway");
+  const auto charging = [&](bool is) {
+    return Told("state",
+                [&](const json& told) { return told["powerSupply"]["charging"] == json(is); });
+  };
+  ASSERT_TRUE(charging(false)) << gateway->output() << heard_->output();
+  const auto tool = [&](const Words& words) {
+    const Ended ended = End(*Start("trailcast", words, "tool" + std::to_string(++started_)));
+    EXPECT_EQ(ended.status, 0) << ended.output;
+  };
+  tool({"network", "name", "dock1", "hall@1", "dock"});
+  tool({"send", "robot1", "follow", "hall", "..0.8", "--wait"});
+  tool({"network", "charge", "below", "98", "until", "99"});
+  EXPECT_TRUE(charging(true)) << heard_->output() << server_->output() << agent_->output();
+  tool({"network", "charge", "never"});
+  EXPECT_TRUE(charging(false)) << "nobody says so any more";
 }
 
 TEST_F(Vda5050Test, WhatRobotsDoNotTellIsVouchedForOrRefused) {

@@ -163,6 +163,25 @@ TEST_P(VehicleTest, WhatIsToldIsHeldAgainstTheStandardsSchemas) {
   EXPECT_FALSE(state.contains(is_new() ? "mobileRobotPosition" : "agvPosition"));
 }
 
+TEST_P(VehicleTest, ThatItChargesIsToldAtOnceInAServersWordsAndElseVouchedFor) {
+  const auto charging = [&] {
+    return StateNow().at(is_new() ? "powerSupply" : "batteryState").at("charging").get<bool>();
+  };
+  const char* const text = is_new() ? "infoDescriptor" : "infoDescription";
+  const auto before = program::OneLine(vehicle_.Events(now_));
+  EXPECT_FALSE(charging());
+  EXPECT_THAT(StateNow().at("information")[0].at(text), HasSubstr("charging"));
+  vehicle_.NoteCharging("charges at dock1: its battery is at 17 %");
+  EXPECT_TRUE(charging());
+  EXPECT_NE(program::OneLine(vehicle_.Events(now_)), before);
+  const json information = StateNow().at("information");
+  ASSERT_EQ(information.size(), 2U);
+  EXPECT_THAT(information[0].at(text), Not(HasSubstr("charging"))) << "nobody vouches for that";
+  EXPECT_EQ(information[1].at(text), "charges at dock1: its battery is at 17 %");
+  vehicle_.NoteCharging("");
+  EXPECT_FALSE(charging());
+}
+
 TEST_P(VehicleTest, AnOrderAlongARouteIsFollowedToItsEnd) {
   Order(master_.Order("o1", 0, {"hall:0", "hall:4.5", "hall:10"}, 3));
   EXPECT_THAT(Errors(), IsEmpty());

@@ -124,9 +124,12 @@ class ChargingTest : public testing::Test {
     IsAt(robot, along_m, battery_percent);
     Says(robot, handed_.at(robot), State::kArrived);
   }
+  std::vector<std::string> Answered(const std::string& words) {
+    return network_->Answer({AgentId("desk"), ++requests_, words}).lines;
+  }
   std::vector<std::string> Listed() {
     std::vector<std::string> lines;
-    for (const std::string& line : network_->Answer({AgentId("desk"), ++requests_}).lines) {
+    for (const std::string& line : Answered("")) {
       if (line.starts_with("charging ") || line.starts_with("name dock")) lines.push_back(line);
     }
     return lines;
@@ -171,6 +174,7 @@ TEST_F(ChargingTest, ARobotChargesAfterItsMissionAndBeforeItsQueue) {
   EXPECT_THAT(Pass(), IsEmpty());
   EXPECT_THAT(Listed(), ElementsAre("name dock1 hall@12 dock, taken by robot1",
                                     "charging robot1 " + charges));
+  EXPECT_THAT(Answered("charging"), ElementsAre("charging robot1 " + charges)) << "those alone";
   EXPECT_EQ(WaitsFor("robot1"), "it " + charges) << "what its queue waits for";
   IsAt("robot1", {}, 89);
   EXPECT_THAT(Pass(), IsEmpty());
