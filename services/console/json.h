@@ -21,15 +21,20 @@ namespace trailcast::console {
 // Reads the same from any body, makes it one line, and returns an empty text if there is none.
 [[nodiscard]] std::string ReasonIfAny(const std::string& body);
 
+// The photos that a mission takes on its way.
+struct PhotosBody {
+  double every_m = 0.0;           // 0 for none
+  std::vector<std::string> at{};  // ROUTE@METRES, or names
+};
+
 struct SendBody {
   std::string to{};
   std::string orders{};
   std::string id{};  // empty if it is to be drawn
   std::uint32_t valid_s = 600;
   bool goes_on = false;
-  bool unheard = false;                 // also to a robot that nobody has heard of
-  double photo_every_m = 0.0;           // 0 for none
-  std::vector<std::string> photo_at{};  // ROUTE@METRES, or names
+  bool unheard = false;  // also to a robot that nobody has heard of
+  PhotosBody photos{};
 };
 // The body of a mission for whom the address does not say has `to` (mission/address.h), too.
 [[nodiscard]] Result<SendBody> ReadSend(const std::string& body, bool has_to = false);
@@ -44,8 +49,12 @@ struct SendBody {
 // Reads {"words": ".."}, a change of the network in a server's words (network/words.h).
 [[nodiscard]] Result<std::string> ReadNetworkEdit(const std::string& body);
 
-// Reads {"words": ".."}, a new schedule (schedule/schedule.h).
-[[nodiscard]] Result<schedule::Schedule> ReadSchedule(const std::string& body);
+struct ScheduleBody {
+  schedule::Schedule schedule{};
+  PhotosBody photos{};
+};
+// Reads {"words": ".."}, a new schedule (schedule/schedule.h), and the photos of its missions.
+[[nodiscard]] Result<ScheduleBody> ReadSchedule(const std::string& body);
 
 struct LogInBody {
   std::string user;

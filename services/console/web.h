@@ -22,7 +22,6 @@
 namespace trailcast::console {
 
 class Runs;
-struct SendBody;
 
 // This serves the page and openapi.yaml's API over HTTP.
 class Web {
@@ -53,7 +52,6 @@ class Web {
   void Stream(const httplib::Request& request, httplib::Response& response);
   void Tell(exchange::NowOrder order, const fleet::NowTarget& target,
             const httplib::Request& request, httplib::Response& response);
-  [[nodiscard]] Result<std::string> OrdersOf(const SendBody& body);
   void Send(const std::string& robot, const httplib::Request& request, httplib::Response& response);
 
   Desk& desk_;

@@ -6,6 +6,7 @@
 
 #include "services/base/result.h"
 #include "services/mission/orders.h"
+#include "services/schedule/schedule.h"
 
 namespace trailcast::fleet {
 
@@ -21,5 +22,8 @@ namespace trailcast::fleet {
 // mission cannot hold all of it.
 [[nodiscard]] Result<std::string> OrdersWithPhotos(const std::string& orders,
                                                    const mission::PhotoWish& wish);
+// Returns a schedule of such missions. It fails likewise.
+[[nodiscard]] Result<schedule::Schedule> ScheduleWithPhotos(schedule::Schedule schedule,
+                                                            const mission::PhotoWish& wish);
 
 }  // namespace trailcast::fleet

@@ -43,7 +43,8 @@ struct Date {
 // ROBOT is a name, or the beginning of names with '*' behind it: all robots of such names that the
 // server hears then. DAYS are "mon", "tue", .. or "mon-fri", with commas between them. A period
 // that ends before it begins ends on the next day, and its day is the one on which it begins. ZONE
-// is a name of the IANA time zone database. ORDERS are those of a mission, or "goto PLACE" alone.
+// is a name of the IANA time zone database. ORDERS are those of a mission, or "goto PLACE" with the
+// photos on the way there, if there are any, behind it.
 struct Schedule {
   std::string name{};
   std::vector<std::string> robots{};
@@ -75,6 +76,8 @@ struct Schedule {
 
 // Returns the orders as a robot's mission has them.
 [[nodiscard]] std::string MissionOrders(const Schedule& schedule);
+// Returns the orders of a schedule whose missions have these, which is the opposite.
+[[nodiscard]] std::string ScheduleOrders(std::string mission_orders);
 // Returns the mission's name, which is the same at whichever server and however often it is sent:
 // "night-round-20261130T0730Z".
 [[nodiscard]] std::string MissionId(const Schedule& schedule, std::int64_t due_unix_ms);

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "services/exchange/bounds.h"
 #include "services/network/words.h"
@@ -78,6 +79,15 @@ Result<std::string> OrdersWithPhotos(const std::string& orders, const mission::P
               "the orders are too long by {} bytes: ask for photos at fewer places, or use shorter "
               "names",
               with.size() - exchange::kMaxLineBytes);
+}
+
+Result<schedule::Schedule> ScheduleWithPhotos(schedule::Schedule schedule,
+                                              const mission::PhotoWish& wish) {
+  if (!wish.any()) return schedule;
+  auto orders = OrdersWithPhotos(MissionOrders(schedule), wish);
+  if (!orders) return tl::unexpected(orders.error());
+  schedule.orders = schedule::ScheduleOrders(*std::move(orders));
+  return schedule;
 }
 
 }  // namespace trailcast::fleet

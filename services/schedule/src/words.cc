@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::array<std::string_view, 7> kDays{"mon", "tue", "wed", "thu", "fri", "sat", "sun"};
 constexpr std::string_view kGoto = "goto ";
+constexpr std::string_view kWaitWay = " wait way";  // its path is found when it is about to begin
 constexpr const char* kTimeExpected = "a time from 00:00 to 23:59, as 08:30";
 constexpr const char* kDaysExpected = "days, as mon-fri or mon,wed,sat";
 constexpr const char* kDateExpected = "a day, as 2026-12-24";
@@ -105,13 +106,17 @@ std::string DaysText(const std::set<int>& days) {
 }
 
 Result<void> CheckOrders(const std::string& orders) {
+  const std::string of_mission = MissionOrders({.orders = orders});
+  const auto tasks = mission::ParseOrders(of_mission);
   if (orders.starts_with(kGoto)) {
-    const std::string place = orders.substr(kGoto.size());
-    if (place.empty() || place.find(' ') != std::string::npos) {
-      return NotA(orders, "'goto' followed by one place and nothing else: goto office@8");
-    }
+    const auto going = mission::GoingIn(of_mission);
+    const bool is_one_place =
+        tasks && going && going->way == 1 && going->because.empty() && tasks->size() == 1;
+    if (is_one_place) return {};
+    return NotA(orders,
+                "'goto' followed by one place and nothing else but photos: goto office@8, or goto "
+                "office@8 photo every 5");
   }
-  const auto tasks = mission::ParseOrders(MissionOrders({.orders = orders}));
   if (!tasks) return tl::unexpected(tasks.error());
   for (const mission::Task& task : *tasks) {
     if (task.kind == mission::Task::Kind::kTeach) {
@@ -301,7 +306,15 @@ bool IsMeant(std::string_view word, std::string_view robot) {
 }
 
 std::string MissionOrders(const Schedule& schedule) {
-  return schedule.orders.starts_with(kGoto) ? schedule.orders + " wait way" : schedule.orders;
+  return schedule.orders.starts_with(kGoto) ? schedule.orders + std::string(kWaitWay)
+                                            : schedule.orders;
+}
+
+std::string ScheduleOrders(std::string mission_orders) {
+  if (mission_orders.starts_with(kGoto) && mission_orders.ends_with(kWaitWay)) {
+    mission_orders.resize(mission_orders.size() - kWaitWay.size());
+  }
+  return mission_orders;
 }
 
 Result<Schedule> ParseSchedule(std::string_view words) { return Parser(words).All(); }

@@ -24,6 +24,7 @@
 #include "services/program/stop_signal.h"
 #include "services/tool/commands/address_validator.h"
 #include "services/tool/commands/command.h"
+#include "services/tool/commands/photo_options.h"
 #include "services/tool/commands/time_spans.h"
 
 namespace trailcast::tool {
@@ -40,9 +41,8 @@ struct SendOptions {
   std::string again;
   mission::PhotoWish again_photos{};  // of a mission to a place
   std::string id;
-  std::string from;            // where `goto` begins; empty for where the robot stands
-  double photo_every_m = 0.0;  // 0 for none
-  std::vector<std::string> photo_at;
+  std::string from;  // where `goto` begins; empty for where the robot stands
+  PhotoOptions photos;
   double valid_s = 600.0;
   bool goes_on = false;
   bool unheard = false;
@@ -173,9 +173,7 @@ Result<std::string> OrdersTo(const std::string& goal, const fleet::OperatorPeer&
 // Returns the orders with the photos that it is to take.
 Result<std::string> WithPhotos(const std::string& orders, fleet::OperatorPeer& peer,
                                const SendOptions& options) {
-  auto wish = fleet::PhotoWishFor(options.photo_every_m, options.photo_at, [&] {
-    return fleet::AskForNetwork(*peer.exchange, peer.self, ToMilliseconds(options.timeout_s));
-  });
+  auto wish = WishOf(options.photos, peer, options.timeout_s);
   if (!wish) return tl::unexpected(wish.error());
   return fleet::OrdersWithPhotos(orders, wish->any() ? *wish : options.again_photos);
 }
@@ -209,7 +207,7 @@ int Send(const CLI::App& app, const program::CommonOptions& common, SendOptions 
   };
   and_also(exchange::HistoryTopics());
   const bool goes_to_a_place = !options.orders.empty() && options.orders.front() == "goto";
-  if (goes_to_a_place || !options.again.empty() || !options.photo_at.empty())
+  if (goes_to_a_place || !options.again.empty() || !options.photos.at.empty())
     and_also(exchange::NetworkTopics());
   auto peer = fleet::JoinAsOperator(common, use);
   if (!peer) return program::Complain(app, peer.error());
@@ -444,14 +442,7 @@ Command AddSend(CLI::App& parent, const program::CommonOptions& common) {
       "--from", options->from,
       "Where a robot stands that goes to a place, ROUTE@METRES or a name; default: where "
       "it last said so");
-  app->add_option("--photo-every", options->photo_every_m,
-                  "Photos at every so many metres along each route, from its beginning, so that "
-                  "all visits have theirs at the same places")
-      ->check(CLI::Range(0.2, 1e4));
-  app->add_option("--photo-at", options->photo_at,
-                  "A photo at this place, ROUTE@METRES or a name; may be given several times")
-      ->take_all()
-      ->allow_extra_args(false);
+  AddPhotoOptions(*app, options->photos);
   app->add_option("--valid", options->valid_s,
                   "How long a server keeps it for a robot that is out of reach: 90s, 20min, 2h; 0: "
                   "for ever")

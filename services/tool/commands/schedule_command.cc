@@ -13,10 +13,12 @@
 #include "services/fleet/known_robot.h"
 #include "services/fleet/network_client.h"
 #include "services/fleet/operator_peer.h"
+#include "services/fleet/photo_wish.h"
 #include "services/fleet/schedule_client.h"
 #include "services/program/json.h"
 #include "services/schedule/listed.h"
 #include "services/tool/commands/command.h"
+#include "services/tool/commands/photo_options.h"
 #include "services/tool/commands/time_spans.h"
 
 namespace trailcast::tool {
@@ -38,6 +40,7 @@ struct ScheduleOptions {
   std::string on;
   std::string once;
   std::string zone;
+  PhotoOptions photos;
   int battery = 0;
   int days = fleet::kCalendarDays;
   bool unless_closed = false;
@@ -58,6 +61,9 @@ constexpr const char* kScheduleExamples =
     "  trailcast schedule add shuttle follow hall laps 2 --to 'cart-*' --every 20min \\\n"
     "      --from 08:00 --until 18:00 --zone Europe/Berlin --if-arrived\n"
     "  trailcast schedule add audit goto office@8 --to robot1 --once 2026-12-24T08:30 --zone UTC\n"
+    "  trailcast schedule add look follow hall --photo-every 5 --photo-at dock --to robot1 --at "
+    "06:00 \\\n"
+    "      --zone UTC                          # then: trailcast photos\n"
     "  trailcast schedule list\n"
     "  trailcast schedule calendar             # when all are due next\n"
     "  trailcast schedule change night-round follow hall --to robot1 --at 23:00 --zone UTC\n"
@@ -126,6 +132,25 @@ int Show(const std::vector<fleet::KnownSchedule>& schedules, bool json) {
   return program::kExitOk;
 }
 
+// Fails if no message holds it.
+Result<void> CheckLength(Edit edit) {
+  // The longest name of a server is not longer than this.
+  edit.server = std::string(64, 's');
+  const std::size_t bytes = schedule::ToText(edit).size();
+  if (bytes <= exchange::kMaxLineBytes) return {};
+  return Fail(ErrorCode::kInvalidArgument,
+              "the schedule is too long by {} bytes: name fewer robots or times, or give it fewer "
+              "orders or photos",
+              bytes - exchange::kMaxLineBytes);
+}
+
+Result<schedule::Schedule> WithPhotos(schedule::Schedule schedule, fleet::OperatorPeer& peer,
+                                      const ScheduleOptions& options) {
+  const auto wish = WishOf(options.photos, peer, options.timeout_s);
+  if (!wish) return tl::unexpected(wish.error());
+  return fleet::ScheduleWithPhotos(std::move(schedule), *wish);
+}
+
 int ChangeIt(const CLI::App& app, const program::CommonOptions& common,
              const ScheduleOptions& options, Edit edit) {
   const bool adds = edit.kind == Edit::Kind::kAdd || edit.kind == Edit::Kind::kChange;
@@ -135,6 +160,12 @@ int ChangeIt(const CLI::App& app, const program::CommonOptions& common,
     if (const auto unknown = FirstUnknown(*peer, edit.schedule)) {
       return program::Complain(app, *unknown);
     }
+  }
+  if (adds) {
+    auto with = WithPhotos(std::move(edit.schedule), *peer, options);
+    if (!with) return program::Complain(app, with.error());
+    edit.schedule = *std::move(with);
+    if (const auto fits = CheckLength(edit); !fits) return program::Complain(app, fits.error());
   }
   const auto timeout = ToMilliseconds(options.timeout_s);
   const auto known = fleet::AskForSchedules(*peer->exchange, peer->self, timeout);
@@ -158,15 +189,7 @@ int AddOrChange(const CLI::App& app, const program::CommonOptions& common,
   auto read = schedule::ParseSchedule(WordsOf(options));
   if (!read) return ComplainOfUsage(app, read.error());
   Edit edit{.kind = kind, .schedule = *std::move(read)};
-  // The longest name of a server is not longer than this.
-  edit.server = std::string(64, 's');
-  if (schedule::ToText(edit).size() > exchange::kMaxLineBytes) {
-    return ComplainOfUsage(app,
-                           {ErrorCode::kInvalidArgument,
-                            fmt::format("the schedule is too long by {} bytes: name fewer "
-                                        "robots or times, or give it fewer orders",
-                                        schedule::ToText(edit).size() - exchange::kMaxLineBytes)});
-  }
+  if (const auto fits = CheckLength(edit); !fits) return ComplainOfUsage(app, fits.error());
   return ChangeIt(app, common, options, std::move(edit));
 }
 
@@ -266,6 +289,7 @@ Command AddScheduleCommand(CLI::App& parent, const program::CommonOptions& commo
                                "hears then whose names begin so, 'cart-*'");
     to->required()->delimiter(',')->allow_extra_args(false)->take_all();
     AddTimes(*sub, *options);
+    AddPhotoOptions(*sub, options->photos);
     AddConditions(*sub, *options);
     AddAnswerOptions(*sub, *options);
     worded.emplace_back(sub, kind);

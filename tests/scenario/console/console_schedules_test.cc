@@ -11,6 +11,8 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
+constexpr const char* kDelete = "\uE017";
+
 class ConsoleSchedulesTest : public ConsoleFleetTest {
  protected:
   void SetUp() override {
@@ -70,6 +72,8 @@ TEST_F(ConsoleSchedulesTest, APersonMakesOneAndChangesItAndSeesWhenItIsDue) {
   ASSERT_TRUE(Fill("Name", "night-round"));
   ASSERT_TRUE(Fill("Robots", "robot1, cart-*"));
   ASSERT_TRUE(Fill("Orders", "follow hall"));
+  ASSERT_TRUE(Fill("A photo every", "5"));
+  ASSERT_TRUE(Fill("Photos at", "hall@3, hall@12.5"));
   ASSERT_TRUE(Fill("Times", "22:00, 26:00"));
   ASSERT_TRUE(Fill("Time zone", "Europe/Berlin"));
   ASSERT_TRUE(browser_->WaitForText("⚠ '26:00'")) << browser_->Text();
@@ -88,13 +92,15 @@ TEST_F(ConsoleSchedulesTest, APersonMakesOneAndChangesItAndSeesWhenItIsDue) {
   json made = Listed().at(0);
   EXPECT_EQ(made["words"],
             "night-round to robot1,cart-* at 02:00,22:00 on mon-fri zone Europe/Berlin battery 40 "
-            "unless-closed do follow hall");
+            "unless-closed do photo every 5 at hall@3 at hall@12.5 follow hall");
   browser_->Screenshot(Shot("desk-schedule-calendar"));
 
   ASSERT_TRUE(Click("Edit night-round …"));
   ASSERT_TRUE(browser_->WaitForText("Change night-round")) << browser_->Text();
   ASSERT_TRUE(Tick("Every so often"));
   ASSERT_TRUE(Fill("Minutes between", "90"));
+  ASSERT_TRUE(Fill("A photo every", kDelete));
+  ASSERT_TRUE(Fill("Photos at", "hall@3"));
   ASSERT_TRUE(Tick("Only if the last one arrived"));
   browser_->Look(390, 844);
   browser_->Screenshot(Shot("phone-schedule-form"));
@@ -103,7 +109,7 @@ TEST_F(ConsoleSchedulesTest, APersonMakesOneAndChangesItAndSeesWhenItIsDue) {
   made = Listed().at(0);
   EXPECT_EQ(made["words"],
             "night-round to robot1,cart-* every 90 on mon-fri zone Europe/Berlin battery 40 "
-            "unless-closed if-arrived do follow hall");
+            "unless-closed if-arrived do photo at hall@3 follow hall");
   browser_->Screenshot(Shot("phone-schedule-calendar"));
   ASSERT_TRUE(Click("Pause night-round"));
   ASSERT_TRUE(browser_->WaitForText("Nothing is due in the next 28 days")) << browser_->Text();

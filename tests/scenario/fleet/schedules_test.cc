@@ -76,6 +76,21 @@ TEST_F(SchedulesTest, ArePausedResumedAndRemoved) {
   EXPECT_THAT(gone.output, HasSubstr("no schedule is called 'round'"));
 }
 
+TEST_F(SchedulesTest, TakePhotosAsMissionsThatAreSentDo) {
+  server_ = Server();
+  const Words when{"--at", "08:30", "--zone", "UTC", "--photo-every", "5"};
+  const Ended along = Add("along", With(when, {"--photo-at", "hall@3"}));
+  EXPECT_EQ(along.status, 0) << along.output;
+  EXPECT_THAT(along.output, HasSubstr("photo every 5 at hall@3 follow hall"));
+  const Ended there =
+      Schedule(With({"add", "there", "goto", "office@8", "--to", "robot1", "--unheard"}, when));
+  EXPECT_EQ(there.status, 0) << there.output;
+  EXPECT_THAT(there.output, HasSubstr("goto office@8 photo every 5"));
+  const Ended nowhere = Add("nowhere", With(when, {"--photo-at", "dok"}));
+  EXPECT_EQ(nowhere.status, 1) << nowhere.output;
+  EXPECT_THAT(nowhere.output, HasSubstr("no place is called 'dok'"));
+}
+
 TEST_F(SchedulesTest, WhatCannotBeIsRefusedInWords) {
   const auto refused = [this](const Words& more) {
     const Ended ended = Add("round", more);

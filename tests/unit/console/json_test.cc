@@ -57,6 +57,26 @@ TEST(ConsoleBodies, AMissionNeedsOrdersThatAreUnderstood) {
   }
 }
 
+TEST(ConsoleBodies, MissionsAndSchedulesMayTakePhotos) {
+  const auto send = ReadSend(R"({"orders": "wait 1", "photo_every_m": 5, "photo_at": ["dock"]})");
+  ASSERT_TRUE(send) << send.error().message;
+  EXPECT_EQ(send->photos.every_m, 5.0);
+  EXPECT_EQ(send->photos.at, std::vector<std::string>{"dock"});
+  const auto schedule = ReadSchedule(
+      R"({"words": "s to r at 08:30 zone UTC do wait 1", "photo_every_m": 5, "photo_at": ["dock"]})");
+  ASSERT_TRUE(schedule) << schedule.error().message;
+  EXPECT_EQ(schedule->schedule.orders, "wait 1");
+  EXPECT_EQ(schedule->photos.every_m, 5.0);
+  EXPECT_EQ(schedule->photos.at, std::vector<std::string>{"dock"});
+  for (const std::string wrong :
+       {R"("photo_every_m": 0)", R"("photo_every_m": "5")", R"("photo_at": "dock")",
+        R"("photo_at": [1])", R"("photos": 1)"}) {
+    EXPECT_FALSE(ReadSend(R"({"orders": "wait 1", )" + wrong + "}")) << wrong;
+    EXPECT_FALSE(ReadSchedule(R"({"words": "s to r at 08:30 zone UTC do wait 1", )" + wrong + "}"))
+        << wrong;
+  }
+}
+
 TEST(ConsoleBodies, TheNetworkIsChangedInWordsThatAreUnderstood) {
   EXPECT_EQ(ReadNetworkEdit(R"({"words": "close hall 3..7"})").value(), "close hall 3..7");
   EXPECT_THAT(ReadNetworkEdit(R"({"words": "dance"})").error().message, HasSubstr("dance"));

@@ -35,13 +35,20 @@ class SchedulesApiTest : public testing::Test {
       while (!stop.stop_requested()) {
         for (const exchange::Message& message : exchange->Take(milliseconds(5))) {
           if (const auto* asked = std::get_if<exchange::NetworkRequest>(&message)) {
-            (void)exchange->Publish(board_->Answer(*asked));
+            (void)exchange->Publish(asked->words.empty() ? NetworkFor(*asked)
+                                                         : board_->Answer(*asked));
           } else if (const auto* edit = std::get_if<exchange::NetworkEdit>(&message)) {
             (void)exchange->Publish(board_->Change(*edit, NowUnixMs()));
           }
         }
       }
     });
+  }
+  static exchange::NetworkReply NetworkFor(const exchange::NetworkRequest& asked) {
+    return {.server = AgentId("barn"),
+            .client = asked.client,
+            .request = asked.request,
+            .lines = {"name dock hall@12"}};
   }
   [[nodiscard]] httplib::Client Client() const {
     return ClientOf(web_->port(), std::chrono::seconds(60));
@@ -160,6 +167,32 @@ TEST_F(SchedulesApiTest, APreviewSaysWhenItWouldBeDueAndKeepsNothing) {
   EXPECT_EQ(bad.status, 400);
   EXPECT_THAT(bad.error(), HasSubstr("Mars"));
   EXPECT_EQ(List().body["schedules"], json::array());
+}
+
+TEST_F(SchedulesApiTest, TakePhotosAtPlacesThatAreLookedUp) {
+  Serve();
+  const auto with_photos = [&](const char* path, const char* orders, const json& at) {
+    return ReplyOf(
+        Client().Post(path,
+                      json{{"words", std::string("round to robot1 at 08:30 zone UTC do ") + orders},
+                           {"photo_every_m", 5},
+                           {"photo_at", at}}
+                          .dump(),
+                      "application/json"));
+  };
+  const json places{"dock", "hall@3"};
+  const Replied preview = with_photos("/api/schedules/preview", "goto office@8", places);
+  ASSERT_EQ(preview.status, 200) << preview.body;
+  EXPECT_EQ(preview.body["words"],
+            "round to robot1 at 08:30 zone UTC do goto office@8 photo every 5 at dock=hall@12 at "
+            "hall@3");
+  const Replied added = with_photos("/api/schedules", "follow hall", places);
+  ASSERT_EQ(added.status, 200) << added.body;
+  EXPECT_EQ(List().body["schedules"][0]["orders"],
+            "photo every 5 at dock=hall@12 at hall@3 follow hall");
+  const Replied unknown = with_photos("/api/schedules/preview", "follow hall", {"dok"});
+  EXPECT_EQ(unknown.status, 404);
+  EXPECT_THAT(unknown.error(), HasSubstr("no place is called 'dok': there are dock"));
 }
 
 TEST_F(SchedulesApiTest, WhatCannotBeIsRefusedInWords) {

@@ -51,5 +51,18 @@ TEST(PhotoWish, GoesIntoOrdersOfAnyKind) {
   EXPECT_THAT(OrdersWithPhotos(longest, wish).error().message, HasSubstr("too long by"));
 }
 
+TEST(PhotoWish, GoesIntoSchedulesOfAnyKind) {
+  const mission::PhotoWish wish{.every_m = 5.0};
+  const auto orders = [&](const char* before, const mission::PhotoWish& asked) {
+    const auto with = ScheduleWithPhotos({.orders = before}, asked);
+    return with ? with->orders : with.error().message;
+  };
+  EXPECT_EQ(orders("follow hall", wish), "photo every 5 follow hall");
+  EXPECT_EQ(orders("goto office@8", wish), "goto office@8 photo every 5");
+  EXPECT_EQ(orders("goto dock photo every 1", wish), "goto dock photo every 5");
+  EXPECT_EQ(orders("goto dock photo every 1", {}), "goto dock photo every 1");
+  EXPECT_THAT(orders("goto dock", {.every_m = 0.1}), HasSubstr("0.2 or more"));
+}
+
 }  // namespace
 }  // namespace trailcast::fleet

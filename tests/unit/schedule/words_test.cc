@@ -21,6 +21,8 @@ TEST(ScheduleWords, AreTheSameScheduleAgain) {
        {"night-round to robot1,cart-* at 02:00,22:00 on mon-fri zone Europe/Berlin battery 40 "
         "unless-closed if-arrived missed once valid 60 goes-on do follow hall 3..10 laps 2 wait 5",
         "shuttle to cart-* every 20 from 22:00 until 06:00 on mon,tue,sat zone UTC do goto dock",
+        "look to cart-1 at 08:30 zone UTC do goto dock photo every 5 at boiler=hall@12.5",
+        "round to cart-1 at 08:30 zone UTC do photo every 5 follow hall",
         "audit to robot1 once 2026-12-24 08:30 zone UTC do follow hall"}) {
     const auto schedule = ParseSchedule(words);
     ASSERT_TRUE(schedule) << schedule.error().message;
@@ -75,6 +77,10 @@ TEST(ScheduleWords, ThatAreWrongAreNamedWithWhatWasExpected) {
       {"s to r at 08:30 zone UTC", "say what is to be done"},
       {"s to r at 08:30 zone UTC do dance", "dance"},
       {"s to r at 08:30 zone UTC do goto office@8 now", "one place and nothing else"},
+      {"s to r at 08:30 zone UTC do goto office@8 photo", "nothing else but photos"},
+      {"s to r at 08:30 zone UTC do goto office@8 photo every 5 follow hall", "but photos"},
+      {"s to r at 08:30 zone UTC do goto office@8 way 2", "but photos"},
+      {"s to r at 08:30 zone UTC do goto office@8 because I say so", "but photos"},
       {"s to r at 08:30 zone UTC do teach yard", "no 'teach'"},
       {"a/b to r at 08:30" + end, "'a/b' in a schedule: expected its name"},
       {std::string(49, 's') + " to r at 08:30" + end, "expected its name: 1 to 48"},
@@ -88,6 +94,8 @@ TEST(ScheduleWords, AGoalIsPlannedWhenItsRobotIsAboutToBegin) {
   const auto schedule = ParseSchedule("s to r at 08:30 zone UTC do goto office@8");
   ASSERT_TRUE(schedule) << schedule.error().message;
   EXPECT_EQ(MissionOrders(*schedule), "goto office@8 wait way");
+  EXPECT_EQ(ScheduleOrders("goto office@8 wait way"), "goto office@8");
+  EXPECT_EQ(ScheduleOrders("follow hall"), "follow hall");
 }
 
 TEST(ScheduleWords, APatternMeansAllNamesThatBeginSo) {

@@ -1,6 +1,7 @@
 import { useEffect, useId, useState, type FormEvent } from 'react';
 import { change, create } from '../api';
 import { Field } from '../network/network-changes';
+import { apart, bodyOf, PhotoFields, type Asked } from '../photos/asked';
 import type { Firing, Schedule } from './schedule';
 
 type How = 'at' | 'every' | 'once';
@@ -8,7 +9,7 @@ const hows: Record<How, string> = { at: 'At times of the day', every: 'Every so 
 const days = ['mon', 'tue', 'wed', 'thu', 'fri', 'sat', 'sun'];
 
 type Draft = {
-  name: string; robots: string; orders: string;
+  name: string; robots: string; orders: string; photos: Asked;
   how: How; at: string; every_min: string; from: string; until: string; days: string[]; date: string; time: string; zone: string;
   battery: string; unless_closed: boolean; if_arrived: boolean; missed: 'skip' | 'once'; valid_min: string; goes_on: boolean;
 };
@@ -18,9 +19,10 @@ const ownZone = () => Intl.DateTimeFormat().resolvedOptions().timeZone || 'UTC';
 
 function draftOf(schedule: Schedule | null): Draft {
   const times = schedule?.times;
+  const { orders, asked } = apart(schedule?.orders ?? '');
   const how: How = !times || times.at.length > 0 && times.once === null ? 'at' : times.once !== null ? 'once' : 'every';
   return {
-    name: schedule?.name ?? '', robots: schedule?.robots.join(', ') ?? '', orders: schedule?.orders ?? '',
+    name: schedule?.name ?? '', robots: schedule?.robots.join(', ') ?? '', orders, photos: asked,
     how, at: how === 'at' ? times?.at.join(', ') ?? '08:00' : '08:00',
     every_min: String(times?.every_min ?? 60), from: times?.from ?? '', until: times?.until ?? '',
     days: times && times.days.length > 0 ? times.days : days,
@@ -68,20 +70,20 @@ function Timed({ label, type, value, min, max, onChange }: {
 }
 
 // When what is filled in would be due, in the server's words, or what is wrong with it.
-function usePreview(words: string, complete: boolean): Firing[] | string {
+function usePreview(body: string, complete: boolean): Firing[] | string {
   const [firings, setFirings] = useState<Firing[] | string>([]);
   useEffect(() => {
     let over = false;
     const timer = window.setTimeout(async () => {
       if (!complete) return setFirings([]);
-      const reply = await create<{ firings: Firing[] }>('/api/schedules/preview', { words });
+      const reply = await create<{ firings: Firing[] }>('/api/schedules/preview', JSON.parse(body));
       if (!over) setFirings(typeof reply === 'string' ? reply : reply.firings);
     }, 300);
     return () => {
       over = true;
       window.clearTimeout(timer);
     };
-  }, [words, complete]);
+  }, [body, complete]);
   return firings;
 }
 
@@ -94,16 +96,16 @@ export function ScheduleForm({ schedule, robots, onDone, onLeave }: {
   const [busy, setBusy] = useState(false);
   const id = useId();
   const set = (part: Partial<Draft>) => setDraft((had) => ({ ...had, ...part }));
-  const words = wordsOf(draft);
+  const body = { words: wordsOf(draft), ...bodyOf(draft.photos) };
   const complete = [draft.name, draft.robots, draft.orders, draft.zone].every((text) => text.trim() !== '') &&
     (draft.how !== 'once' || draft.date !== '');
-  const firings = usePreview(words, complete);
+  const firings = usePreview(JSON.stringify(body), complete);
   const save = async (event: FormEvent) => {
     event.preventDefault();
     setBusy(true);
     const reply = schedule === null
-      ? await create<object>('/api/schedules', { words })
-      : await change<object>('PUT', `/api/schedules/${schedule.name}`, { words });
+      ? await create<object>('/api/schedules', body)
+      : await change<object>('PUT', `/api/schedules/${schedule.name}`, body);
     setBusy(false);
     setWhy(typeof reply === 'string' ? reply : '');
     if (typeof reply !== 'string') onDone();
@@ -116,6 +118,7 @@ export function ScheduleForm({ schedule, robots, onDone, onLeave }: {
         <Field label="Robots, with commas between them; cart-* for all whose names begin so" list={`${id}r`} value={draft.robots} onChange={(value) => set({ robots: value })} />
         <datalist id={`${id}r`}>{robots.map((robot) => <option key={robot} value={robot} />)}</datalist>
         <Field label="Orders, as follow hall, or goto loading-bay" value={draft.orders} onChange={(orders) => set({ orders })} />
+        <PhotoFields asked={draft.photos} onChange={(photos) => set({ photos })} />
       </div>
       <fieldset>
         <legend>When</legend>

@@ -101,16 +101,17 @@ Result<std::vector<std::string>> TagsIn(const Json& json) {
   return tags;
 }
 
-Result<void> ReadPhotos(const Json& json, SendBody& send) {
+Result<PhotosBody> PhotosIn(const Json& json) {
+  PhotosBody photos;
   if (json.contains("photo_every_m")) {
     const auto every_m = NumberIn(json, "photo_every_m");
     if (!every_m) return tl::unexpected(every_m.error());
     if (*every_m <= 0.0) {
       return Fail(ErrorCode::kInvalidArgument, "'photo_every_m' is to be metres, 0.2 or more");
     }
-    send.photo_every_m = *every_m;
+    photos.every_m = *every_m;
   }
-  if (!json.contains("photo_at")) return {};
+  if (!json.contains("photo_at")) return photos;
   const Json& places = json["photo_at"];
   const bool are_lines =
       places.is_array() && places.size() <= mission::kMostPhotoPlaces &&
@@ -123,8 +124,8 @@ Result<void> ReadPhotos(const Json& json, SendBody& send) {
                 "'photo_at' is to be a list of at most {} places, each ROUTE@METRES or a name",
                 mission::kMostPhotoPlaces);
   }
-  for (const Json& place : places) send.photo_at.push_back(place.get<std::string>());
-  return {};
+  for (const Json& place : places) photos.at.push_back(place.get<std::string>());
+  return photos;
 }
 
 }  // namespace
@@ -182,7 +183,9 @@ Result<SendBody> ReadSend(const std::string& body, bool has_to) {
     }
     *value = (*json)[name].get<bool>();
   }
-  if (auto read = ReadPhotos(*json, send); !read) return tl::unexpected(read.error());
+  auto photos = PhotosIn(*json);
+  if (!photos) return tl::unexpected(photos.error());
+  send.photos = *std::move(photos);
   return send;
 }
 
@@ -262,10 +265,16 @@ Result<std::string> ReadNetworkEdit(const std::string& body) {
       });
 }
 
-Result<schedule::Schedule> ReadSchedule(const std::string& body) {
-  return ReadObject(body, {"words"})
-      .and_then([](const Json& json) { return LineIn(json, "words"); })
-      .and_then([](const std::string& words) { return schedule::ParseSchedule(words); });
+Result<ScheduleBody> ReadSchedule(const std::string& body) {
+  const auto json = ReadObject(body, {"words", "photo_every_m", "photo_at"});
+  if (!json) return tl::unexpected(json.error());
+  auto schedule = LineIn(*json, "words").and_then([](const std::string& words) {
+    return schedule::ParseSchedule(words);
+  });
+  if (!schedule) return tl::unexpected(schedule.error());
+  auto photos = PhotosIn(*json);
+  if (!photos) return tl::unexpected(photos.error());
+  return ScheduleBody{.schedule = *std::move(schedule), .photos = *std::move(photos)};
 }
 
 Result<LogInBody> ReadLogIn(const std::string& body) {

@@ -8,7 +8,9 @@
 #include "services/base/unix_time.h"
 #include "services/console/json.h"
 #include "services/console/src/api/answers.h"
+#include "services/console/src/api/photos_asked.h"
 #include "services/exchange/bounds.h"
+#include "services/fleet/photo_wish.h"
 #include "services/fleet/schedule_client.h"
 #include "services/program/json.h"
 #include "services/schedule/listed.h"
@@ -41,6 +43,15 @@ Result<fleet::KnownSchedules> AskForSchedules(Desk& desk) {
   return known;
 }
 
+// Reads a schedule with the photos of its missions. A place's name is looked up.
+Result<schedule::Schedule> ScheduleIn(Desk& desk, const std::string& body) {
+  auto read = ReadSchedule(body);
+  if (!read) return tl::unexpected(read.error());
+  const auto wish = PhotosAsked(desk, read->photos);
+  if (!wish) return tl::unexpected(wish.error());
+  return fleet::ScheduleWithPhotos(std::move(read->schedule), *wish);
+}
+
 std::string SchedulesBody(const std::vector<fleet::KnownSchedule>& schedules) {
   return OneLine({{"schedules", fleet::SchedulesJson(schedules)}});
 }
@@ -55,7 +66,7 @@ void ChangeSchedule(Desk& desk, const std::string& who, schedule::Edit edit, Res
   if (words.size() > exchange::kMaxLineBytes) {
     return Refuse(response, 400,
                   fmt::format("the schedule is too long by {} bytes: name fewer robots or times, "
-                              "or give it fewer orders",
+                              "or give it fewer orders or photos",
                               words.size() - exchange::kMaxLineBytes));
   }
   const auto reply = desk.Join(words);
@@ -77,7 +88,7 @@ void ServeSchedules(http::Server& server, Desk& desk, const Access& access) {
     Answer(response, 200, SchedulesBody(known->schedules));
   });
   server.Post("/api/schedules", [&desk, &access](const Request& request, Response& response) {
-    auto read = ReadSchedule(request.body);
+    auto read = ScheduleIn(desk, request.body);
     if (!read) return Refuse(response, read.error());
     ChangeSchedule(desk, access.WhoIs(request).name,
                    {.kind = schedule::Edit::Kind::kAdd, .schedule = *std::move(read)}, response);
@@ -89,8 +100,8 @@ void ServeSchedules(http::Server& server, Desk& desk, const Access& access) {
     Answer(response, 200,
            OneLine({{"days", fleet::kCalendarDays}, {"firings", fleet::CalendarJson(firings)}}));
   });
-  server.Post("/api/schedules/preview", [](const Request& request, Response& response) {
-    const auto read = ReadSchedule(request.body);
+  server.Post("/api/schedules/preview", [&desk](const Request& request, Response& response) {
+    const auto read = ScheduleIn(desk, request.body);
     if (!read) return Refuse(response, read.error());
     Answer(response, 200, OneLine(fleet::PreviewJson(*read, NowUnixMs())));
   });
@@ -103,7 +114,7 @@ void ServeSchedules(http::Server& server, Desk& desk, const Access& access) {
   };
   const std::string named = "/api/schedules/([A-Za-z0-9_.-]{1,64})";
   server.Put(named, [&desk, &access](const Request& request, Response& response) {
-    auto read = ReadSchedule(request.body);
+    auto read = ScheduleIn(desk, request.body);
     if (!read) return Refuse(response, read.error());
     if (read->name != request.matches[1].str()) {
       return Refuse(response, 400,

@@ -21,6 +21,7 @@
 #include "services/console/src/api/map_api.h"
 #include "services/console/src/api/network_api.h"
 #include "services/console/src/api/photos_api.h"
+#include "services/console/src/api/photos_asked.h"
 #include "services/console/src/api/routes/routes_api.h"
 #include "services/console/src/api/routes/transfers_api.h"
 #include "services/console/src/api/routes/where_api.h"
@@ -319,22 +320,13 @@ void Web::ServeMissions() {
                [this](const Request& request, Response& response) { Send("", request, response); });
 }
 
-// A place's name is looked up in the network that servers keep.
-Result<std::string> Web::OrdersOf(const SendBody& body) {
-  const auto wish = fleet::PhotoWishFor(body.photo_every_m, body.photo_at,
-                                        [this]() -> Result<std::vector<std::string>> {
-                                          auto answer = AskForNetwork(desk_, "");
-                                          if (!answer) return tl::unexpected(answer.error());
-                                          return std::move(answer->lines);
-                                        });
-  if (!wish) return tl::unexpected(wish.error());
-  return fleet::OrdersWithPhotos(body.orders, *wish);
-}
-
 void Web::Send(const std::string& robot, const Request& request, Response& response) {
   const auto body = ReadSend(request.body, robot.empty());
   if (!body) return Refuse(response, 400, body.error().message);
-  const auto orders = OrdersOf(*body);
+  const auto orders =
+      PhotosAsked(desk_, body->photos).and_then([&](const mission::PhotoWish& wish) {
+        return fleet::OrdersWithPhotos(body->orders, wish);
+      });
   if (!orders) return Refuse(response, orders.error());
   const auto reports =
       desk_.Send({.agent = AgentId(robot.empty() ? body->to : robot),
