@@ -1,4 +1,5 @@
 // What openapi.yaml describes, as far as the page uses it.
+import { apart, bodyOf, type PhotosBody } from './photos/asked';
 
 export type Mission = {
   mission: string;
@@ -255,9 +256,9 @@ export async function stopAll(): Promise<StopAnswer> {
   }
 }
 
-export async function send(robot: string, orders: string): Promise<Answer> {
+export async function send(robot: string, orders: string, photos: PhotosBody = {}): Promise<Answer> {
   try {
-    const { status, json } = await post(`/api/robots/${robot}/missions`, { orders });
+    const { status, json } = await post(`/api/robots/${robot}/missions`, { orders, ...photos });
     if (json.error) return { ok: false, text: json.error };
     const kept = json.state === 'sent';
     const text = kept ? `Queued${json.detail ? `: ${json.detail}` : ', until the robot is heard'}.` : `${json.state} ${json.detail}`;
@@ -268,9 +269,9 @@ export async function send(robot: string, orders: string): Promise<Answer> {
 }
 
 // Sends one of a group ("@cart"), or several, which all get it or none.
-export async function sendTo(to: string, orders: string): Promise<Answer> {
+export async function sendTo(to: string, orders: string, photos: PhotosBody = {}): Promise<Answer> {
   try {
-    const { status, json } = await post('/api/missions', { to, orders });
+    const { status, json } = await post('/api/missions', { to, orders, ...photos });
     if (json.error) return { ok: false, text: json.error };
     const text = json.missions.map(({ robot, state, detail }: Mission) => `${robot}: ${state}${detail ? `: ${detail}` : ''}`).join('; ');
     return { ok: status === 200, text };
@@ -285,7 +286,7 @@ export async function sendAgain({ robot, orders }: Mission): Promise<Answer> {
   if (first !== 'goto') return send(robot, orders);
   const way = await get<Way>('/api/network/way', { from: robot, to });
   if (typeof way === 'string') return { ok: false, text: way };
-  return way.orders ? send(robot, way.orders) : { ok: true, text: `${robot} is there already.` };
+  return way.orders ? send(robot, way.orders, bodyOf(apart(orders).asked)) : { ok: true, text: `${robot} is there already.` };
 }
 
 // A page of what servers keep; `next` 0 on the last.

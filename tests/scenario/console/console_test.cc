@@ -212,9 +212,13 @@ TEST_F(ConsoleTest, APersonQueuesAMissionSeesWhatItWaitsForAndResumesTheQueueInA
   ASSERT_TRUE(WaitUntil([&] { return Robot1()["mission"].is_object(); })) << State().dump(2);
   ASSERT_TRUE(browser.Click("//button[contains(., 'Queue')]")) << browser.Text();
   ASSERT_TRUE(browser.WaitForText("Slide to send robot1 along hall")) << browser.Text();
+  ASSERT_TRUE(browser.Type("//label[starts-with(., 'A photo every')]/input", "0.5"));
+  ASSERT_TRUE(browser.Type("//label[starts-with(., 'Photos at')]/input", "hall@1, hall@2.5"));
+  browser.Screenshot(Shot("phone-send-photos"));
   ASSERT_TRUE(browser.Type("//input[@type='range']", kSlide));
   ASSERT_TRUE(browser.WaitForText("waits: it does mission now: wait 600")) << browser.Text();
-  EXPECT_TRUE(WaitUntil([&] { return Robot1()["queue"].size() == 1U; })) << State().dump(2);
+  ASSERT_TRUE(WaitUntil([&] { return Robot1()["queue"].size() == 1U; })) << State().dump(2);
+  EXPECT_EQ(Robot1()["queue"][0]["orders"], "photo every 0.5 at hall@1 at hall@2.5 follow hall");
   browser.Screenshot(Shot("phone-queue"));
 
   agent_->Signal(SIGKILL);

@@ -2,6 +2,7 @@ import { useContext, useEffect, useState } from 'react';
 import { sendTo, stopOne, stopsSaid, tell, type Answer, type Order, type Robot } from '../api';
 import { compareNames, when } from '../fleet';
 import { Lost } from '../lost';
+import type { PhotosBody } from '../photos/asked';
 import { labels } from '../robot/robot';
 import { Send } from '../robot/send';
 import { mayMove } from '../robot/state';
@@ -51,11 +52,11 @@ export function Several({ robots, hidden, onClear }: { robots: Robot[]; hidden: 
     });
   };
   // All get it or none.
-  const sendAll = async (orders: string) => {
+  const sendAll = async (orders: string, photos: PhotosBody) => {
     setSends(false);
     setAnswer(null);
     setBusy(`Sending Mission to ${counted(robots.length)} …`);
-    const said = await sendTo(robots.map(({ name }) => name).join(','), orders);
+    const said = await sendTo(robots.map(({ name }) => name).join(','), orders, photos);
     setBusy('');
     const outcome = !said.ok ? said.text : robots.length === 1 ? 'it obeyed.' : `all ${robots.length} obeyed.`;
     setAnswer({ bad: !said.ok, text: `Mission, ${when(Date.now()).slice(11)}: ${outcome}`, failed: [] });
@@ -77,7 +78,7 @@ export function Several({ robots, hidden, onClear }: { robots: Robot[]; hidden: 
         <button disabled={busy !== ''} aria-expanded={sends} onClick={() => setSends(!sends)}>Send …</button>
       </div>
       {sends && busy === '' && (
-        <Send who={counted(robots.length)} onGo={(orders) => void sendAll(orders)} />
+        <Send who={counted(robots.length)} onGo={(orders, photos) => void sendAll(orders, photos)} />
       )}
       <div role="status">
         {busy && <p className="answer">{busy}</p>}

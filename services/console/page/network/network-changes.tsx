@@ -40,7 +40,7 @@ export function Field({ label, value, list, onChange }: {
   );
 }
 
-export function Metres({ label, value, onChange }: { label: string; value: string; onChange: (value: string) => void }) {
+function Metres({ label, value, onChange }: { label: string; value: string; onChange: (value: string) => void }) {
   return (
     <label>{label}
       <input type="number" min={0} step="any" value={value} onChange={(event) => onChange(event.target.value)} />

@@ -2,6 +2,8 @@ import { useEffect, useState } from 'react';
 import { get, send, type Answer, type Robot, type Way } from '../api';
 import { standing } from './network-layout';
 import { WayText } from './way-text';
+import { PhotoFields } from '../photos/fields';
+import { bodyOf, noPhotos } from '../photos/asked';
 import { Slide } from '../robot/send';
 import { isFree } from '../robot/state';
 
@@ -24,6 +26,7 @@ export function SendThere({ robots, to, onTo, names, shown, onShown, onAnswer }:
 }) {
   const [robot, setRobot] = useState('');
   const [from, setFrom] = useState('');
+  const [photos, setPhotos] = useState(noPhotos);
   const free = robots.filter(isFree);
   const chosen = free.find((each) => each.name === robot)?.name ?? free[0]?.name ?? '';
   // A way is of one robot, to one place.
@@ -45,7 +48,7 @@ export function SendThere({ robots, to, onTo, names, shown, onShown, onAnswer }:
   const go = async () => {
     if (!shown) return;
     onAnswer({ ok: true, text: 'Sending …' });
-    const answer = await send(shown.robot, shown.way.orders);
+    const answer = await send(shown.robot, shown.way.orders, bodyOf(photos));
     onAnswer({ ...answer, text: `${shown.robot}: ${answer.text}` });
     if (answer.ok) onShown(null);
   };
@@ -76,6 +79,7 @@ export function SendThere({ robots, to, onTo, names, shown, onShown, onAnswer }:
       {shown && (
         <div className="net-way">
           <WayText to={shown.to} way={shown.way} />
+          <div className="net-fields"><PhotoFields asked={photos} onChange={setPhotos} /></div>
           <Slide label={`Slide to send ${shown.robot} to ${shown.to}`} onDone={go} />
         </div>
       )}

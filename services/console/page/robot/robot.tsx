@@ -98,7 +98,7 @@ export const RobotCard = memo(function RobotCard({ robot, lost_ms, now_ms, alone
       <p role="status" className={answer && !answer.ok ? 'answer bad' : 'answer'}>
         {answer && (answer.ok ? '' : '⚠ ') + answer.text}
       </p>
-      {obeys && open === 'send' && may.send && <Send who={robot.name} onGo={async (orders) => { sent(null); sent(await send(robot.name, orders)); }} />}
+      {obeys && open === 'send' && may.send && <Send who={robot.name} onGo={async (orders, photos) => { sent(null); sent(await send(robot.name, orders, photos)); }} />}
       {obeys && open === 'send' && may.send && <Slide label={`Slide to send ${robot.name} home`} onDone={() => order('home')} />}
       {obeys && open === 'teach' && may.teach && <Later show={({ Teach }) => <Teach robot={robot.name} onAnswer={sent} />} />}
       {looking && seesIt && robot.teaches && <Snapshot robot={robot} brief />}

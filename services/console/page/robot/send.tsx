@@ -1,5 +1,7 @@
 import { useEffect, useId, useState } from 'react';
 import { get, type RoutePage } from '../api';
+import { PhotoFields } from '../photos/fields';
+import { bodyOf, noPhotos, type PhotosBody } from '../photos/asked';
 
 // What moves a robot takes a whole slide, or as many presses of an arrow key: a tap on the far end
 // does not do.
@@ -46,12 +48,13 @@ export function SpeedChoice({ id, speed, onChange }: { id?: string; speed: strin
   );
 }
 
-export function Send({ who, onGo }: { who: string; onGo: (orders: string) => void }) {
+export function Send({ who, onGo }: { who: string; onGo: (orders: string, photos: PhotosBody) => void }) {
   const [prefix, setPrefix] = useState('');
   const [found, setFound] = useState<{ of: string; page: RoutePage | string } | null>(null);
   const [chosen, setChosen] = useState('');
   const [laps, setLaps] = useState(1);
   const [speed, setSpeed] = useState('1');
+  const [photos, setPhotos] = useState(noPhotos);
   const id = useId();
   useEffect(() => {
     let still = true;
@@ -103,8 +106,11 @@ export function Send({ who, onGo }: { who: string; onGo: (orders: string) => voi
               <SpeedChoice id={`${id}s`} speed={speed} onChange={setSpeed} />
             </label>
           </div>
+          <div className="fields">
+            <PhotoFields asked={photos} onChange={setPhotos} />
+          </div>
           {laps > 1 && <p className="note">Several laps need a route whose end is its beginning.</p>}
-          <Slide label={`Slide to send ${who} along ${route.name}`} onDone={() => onGo(orders)} />
+          <Slide label={`Slide to send ${who} along ${route.name}`} onDone={() => onGo(orders, bodyOf(photos))} />
         </>
       )}
     </div>

@@ -1,7 +1,8 @@
 import { useEffect, useId, useState, type FormEvent } from 'react';
 import { change, create } from '../api';
 import { Field } from '../network/network-changes';
-import { apart, bodyOf, PhotoFields, type Asked } from '../photos/asked';
+import { apart, bodyOf, type Asked } from '../photos/asked';
+import { PhotoFields } from '../photos/fields';
 import type { Firing, Schedule } from './schedule';
 
 type How = 'at' | 'every' | 'once';

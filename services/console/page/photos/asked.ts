@@ -1,5 +1,3 @@
-import { Field, Metres } from '../network/network-changes';
-
 // The photos that a mission takes on its way, as a form has them.
 export type Asked = { every: string; at: string };
 export const noPhotos: Asked = { every: '', at: '' };
@@ -24,13 +22,4 @@ export function apart(orders: string): { orders: string; asked: Asked } {
     orders: [goal, orders.slice(all.length)].filter((part) => part !== '').join(' '),
     asked: { every, at: placesIn(at).filter((word) => word !== 'at').join(', ') },
   };
-}
-
-export function PhotoFields({ asked, onChange }: { asked: Asked; onChange: (asked: Asked) => void }) {
-  return (
-    <>
-      <Metres label="A photo every so many metres" value={asked.every} onChange={(every) => onChange({ ...asked, every })} />
-      <Field label="Photos at dock, hall@12.5, …" value={asked.at} onChange={(at) => onChange({ ...asked, at })} />
-    </>
-  );
 }
