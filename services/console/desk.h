@@ -102,6 +102,14 @@ class Desk {
   // words, how routes are joined. Fails with kConflict if a server refuses, and says why.
   [[nodiscard]] Result<exchange::NetworkReply> Network(const std::string& words,
                                                        std::uint32_t first);
+  // This is what all servers answer.
+  struct AllAnswers {
+    std::vector<exchange::NetworkReply> replies{};  // those that are no refusals
+    std::vector<AgentId> silent{};                  // servers that are heard and have not answered
+  };
+  // Returns a page of each server's answer. It waits for the servers that are heard, but not for
+  // long once one has answered. Fails with kConflict if those that answer refuse, and says why.
+  [[nodiscard]] Result<AllAnswers> AskAll(const std::string& words, std::uint32_t first);
   // Asks servers to change that, in words, and returns what holds now. Fails with kConflict
   // likewise.
   [[nodiscard]] Result<exchange::NetworkReply> Join(const std::string& words);

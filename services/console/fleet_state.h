@@ -61,6 +61,8 @@ class FleetState {
   // These return whether a robot was heard or reported a mission, and all that did.
   [[nodiscard]] bool Knows(const AgentId& robot) const;
   [[nodiscard]] std::vector<std::string> Robots() const;
+  // Returns the route servers that are heard, as of the last Tick.
+  [[nodiscard]] std::vector<AgentId> ServersHeard() const;
   struct Known {
     AgentId robot{};
     std::string last_seen{};  // as fleet::LastSeenText

@@ -1,6 +1,10 @@
 #include "services/console/album.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <iterator>
+#include <map>
 
 #include "services/image/files.h"
 
@@ -16,17 +20,68 @@ Result<image::GrayImage> Decoded(const Album::Jpeg& jpeg, const fleet::KnownPhot
 
 }  // namespace
 
-Result<Album::Page> Album::List(const photos::PhotoQuery& query, std::uint32_t first) {
-  const auto reply = desk_.Network(ToText(query), first);
-  if (!reply && reply.error().code == ErrorCode::kConflict) {
-    return Fail(ErrorCode::kUnavailable, "{}", reply.error().message);
+// Servers may have pages of different sizes, so that some of what they have is asked for twice.
+// A robot that did not hear that a server keeps its photo may have handed it to another one, too.
+Result<Album::Gathered> Album::Gather(const photos::PhotoQuery& query, std::size_t enough) {
+  Gathered gathered;
+  std::map<std::string, fleet::KnownPhoto> found;
+  std::map<AgentId, std::size_t> counts;
+  std::uint32_t first = 0;
+  do {
+    auto answers = desk_.AskAll(ToText(query), first);
+    if (!answers && answers.error().code == ErrorCode::kConflict) {
+      return Fail(ErrorCode::kUnavailable, "{}", answers.error().message);
+    }
+    if (!answers) return tl::unexpected(answers.error());
+    gathered.silent.insert(answers->silent.begin(), answers->silent.end());
+    std::uint32_t next = 0;
+    for (const exchange::NetworkReply& reply : answers->replies) {
+      for (fleet::KnownPhoto& known : fleet::PhotosIn(reply.server, reply.lines)) {
+        const std::string id = known.photo.id;
+        if (found.try_emplace(id, std::move(known)).second) ++counts[reply.server];
+      }
+      if (reply.next <= first) continue;
+      const bool is_enough = counts[reply.server] >= enough || reply.next >= kMostListed;
+      gathered.more = gathered.more || is_enough;
+      if (!is_enough) next = next == 0 ? reply.next : std::min(next, reply.next);
+    }
+    first = next;
+  } while (first > 0);
+  for (auto& [id, known] : found) gathered.photos.push_back(std::move(known));
+  std::sort(gathered.photos.begin(), gathered.photos.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.photo.taken_unix_ms, a.photo.id) >
+           std::pair(b.photo.taken_unix_ms, b.photo.id);
+  });
+  return gathered;
+}
+
+Result<Album::Page> Album::List(const photos::PhotoQuery& query, std::uint32_t first,
+                                std::size_t most) {
+  if (first >= kMostListed) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "only the last {} photos are listed: ask for those of a robot, a route, a place or "
+                "a mission",
+                kMostListed);
   }
-  if (!reply) return tl::unexpected(reply.error());
-  Page page{.photos = fleet::PhotosIn(reply->server, reply->lines)};
-  if (reply->next > first) page.next = reply->next;
+  auto gathered = Gather(query, first + most);
+  if (!gathered) return tl::unexpected(gathered.error());
+  std::vector<fleet::KnownPhoto>& all = gathered->photos;
+  const std::size_t begin = std::min<std::size_t>(first, all.size());
+  const std::size_t end = std::min(begin + most, all.size());
+  Page page{.silent = {gathered->silent.begin(), gathered->silent.end()}};
+  if (gathered->more || end < all.size()) page.next = static_cast<std::uint32_t>(first + most);
+  page.photos.assign(std::make_move_iterator(all.begin() + static_cast<std::ptrdiff_t>(begin)),
+                     std::make_move_iterator(all.begin() + static_cast<std::ptrdiff_t>(end)));
   const std::scoped_lock lock(mutex_);
   for (const fleet::KnownPhoto& known : page.photos) known_.Touch(known.photo.id) = known;
   return page;
+}
+
+std::string Album::SilentText(const Page& page) {
+  std::vector<std::string> names;
+  for (const AgentId& server : page.silent) names.push_back(server.value());
+  return fmt::format("route server{} {} {} not answer", names.size() == 1 ? "" : "s",
+                     fmt::join(names, ", "), names.size() == 1 ? "does" : "do");
 }
 
 Result<fleet::KnownPhoto> Album::Find(const std::string& id) {
@@ -36,6 +91,10 @@ Result<fleet::KnownPhoto> Album::Find(const std::string& id) {
   }
   const auto page = List({.id = id}, 0);
   if (!page) return tl::unexpected(page.error());
+  if (page->photos.empty() && !page->silent.empty()) {
+    return Fail(ErrorCode::kUnavailable, "there is no photo {} as far as is known: {}", id,
+                SilentText(*page));
+  }
   if (page->photos.empty()) return Fail(ErrorCode::kNotFound, "there is no photo {}", id);
   return page->photos.front();
 }

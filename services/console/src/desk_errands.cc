@@ -21,6 +21,8 @@ using std::chrono::milliseconds;
 
 // Questions are repeated more slowly, because their answers may be long.
 constexpr milliseconds kAskErrandAgain{500};
+// Servers that have not answered by then, while others have, are not waited for.
+constexpr milliseconds kOthersAnswerWithin{1000};
 // Beyond an errand's own time, this shows that the thread itself does not run.
 constexpr milliseconds kGrace{3000};
 
@@ -193,6 +195,51 @@ using RouteChange = Question<exchange::RouteEditRequest, exchange::CatalogReply>
 using NetworkQuestion = Question<exchange::NetworkRequest, exchange::NetworkReply>;
 using NetworkChange = Question<exchange::NetworkEdit, exchange::NetworkReply>;
 
+// This is a question to all servers, which is over when those that are heard have answered.
+class QuestionToAll final : public ErrandFor<Desk::AllAnswers> {
+ public:
+  QuestionToAll(exchange::NetworkRequest request, milliseconds timeout)
+      : request_(std::move(request)), timeout_(timeout) {}
+
+  [[nodiscard]] std::vector<exchange::Message> Words() const override { return {request_}; }
+  [[nodiscard]] milliseconds SayAgain() const override { return kAskErrandAgain; }
+  void Begin(FleetState& state, std::chrono::steady_clock::time_point now) override {
+    state.Tick(now);
+    servers_ = state.ServersHeard();
+  }
+  void Hear(const exchange::Message& message) override {
+    const auto* reply = std::get_if<exchange::NetworkReply>(&message);
+    if (reply == nullptr || reply->client != request_.client) return;
+    if (reply->request == request_.request) replies_.try_emplace(reply->server, *reply);
+  }
+  [[nodiscard]] bool IsOver(milliseconds since) const override {
+    if (!servers_.empty() && Silent().empty()) return true;
+    return since > (replies_.empty() ? timeout_ : kOthersAnswerWithin);
+  }
+
+ private:
+  [[nodiscard]] std::vector<AgentId> Silent() const {
+    std::vector<AgentId> silent = servers_;
+    std::erase_if(silent, [&](const AgentId& server) { return replies_.contains(server); });
+    return silent;
+  }
+  [[nodiscard]] Result<Desk::AllAnswers> Outcome() const override {
+    if (replies_.empty()) return Fail(ErrorCode::kUnavailable, "no route server answers");
+    Desk::AllAnswers answers{.silent = Silent()};
+    for (const auto& [server, reply] : replies_) {
+      if (reply.error.empty()) answers.replies.push_back(reply);
+    }
+    if (!answers.replies.empty()) return answers;
+    const auto& [server, reply] = *replies_.begin();
+    return Fail(ErrorCode::kConflict, "server '{}': {}", server.value(), reply.error);
+  }
+
+  exchange::NetworkRequest request_;
+  milliseconds timeout_;
+  std::vector<AgentId> servers_;
+  std::map<AgentId, exchange::NetworkReply> replies_;
+};
+
 // This reads the desk's own state, in its thread.
 class MeasureErrand final : public ErrandFor<http::MetricsText> {
  public:
@@ -338,6 +385,12 @@ Result<exchange::NetworkReply> Desk::Network(const std::string& words, std::uint
   return CarryOut(
       std::make_shared<NetworkQuestion>(request, options_.reply_within, ErrorCode::kConflict),
       false, options_.reply_within);
+}
+
+Result<Desk::AllAnswers> Desk::AskAll(const std::string& words, std::uint32_t first) {
+  const exchange::NetworkRequest request{self_, fleet::DrawNumber(), words, first};
+  return CarryOut(std::make_shared<QuestionToAll>(request, options_.reply_within), false,
+                  options_.reply_within);
 }
 
 Result<exchange::NetworkReply> Desk::Join(const std::string& words) {

@@ -126,6 +126,16 @@ std::vector<std::string> FleetState::Robots() const {
   return robots;
 }
 
+std::vector<AgentId> FleetState::ServersHeard() const {
+  std::vector<AgentId> servers;
+  for (const auto& [name, agent] : agents_) {
+    const AgentStatus& last = agent.status;
+    const bool is_heard = !agent.silent && last.mode != AgentMode::kStopped;
+    if (last.role == AgentRole::kServer && is_heard) servers.push_back(name);
+  }
+  return servers;
+}
+
 std::vector<FleetState::Known> FleetState::MayMove(Time now) const {
   std::vector<Known> known;
   for (const auto& [name, agent] : agents_) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -10,10 +11,13 @@
 #include "services/exchange/in_process_exchange.h"
 #include "services/fleet/routes/route_export.h"
 #include "services/image/files.h"
+#include "services/program/presence.h"
 #include "services/route/digest.h"
+#include "tests/support/await.h"
 #include "tests/support/painted_wall.h"
 #include "tests/support/temp_dir.h"
 #include "tests/unit/console/replied.h"
+#include "tests/unit/photos/a_photo.h"
 
 namespace trailcast::console {
 namespace {
@@ -26,23 +30,48 @@ using testing::StartsWith;
 
 class PhotosApiTest : public testing::Test {
  protected:
-  void Serve() {
-    server_ = std::jthread([this](const std::stop_token& stop) {
-      server::PhotoRegistry registry(AgentId("barn"), std::move(folder_));
-      const auto exchange = bus_.Open(exchange::ServerTopics());
-      while (!stop.stop_requested()) {
-        for (const exchange::Message& message : exchange->Take(milliseconds(5))) {
-          if (const auto* asked = std::get_if<exchange::NetworkRequest>(&message)) {
-            (void)exchange->Publish(registry.Answer(*asked));
-          } else if (const auto* wants = std::get_if<exchange::PhotoRequest>(&message)) {
-            if (const auto piece = registry.Give(*wants)) (void)exchange->Publish(*piece);
+  void Serve() { Serve("barn", std::move(folder_)); }
+  // Returns once the console hears it.
+  void Serve(const std::string& name, std::unique_ptr<photos::PhotoFolder> folder) {
+    servers_.emplace_back(
+        [this, name, kept = std::move(folder)](const std::stop_token& stop) mutable {
+          server::PhotoRegistry registry(AgentId(name), std::move(kept));
+          const auto exchange = bus_.Open(program::WithAgents(exchange::ServerTopics()));
+          program::Presence presence(*exchange, StatusOf(name));
+          while (!stop.stop_requested()) {
+            presence.Tick(std::chrono::steady_clock::now());
+            for (const exchange::Message& message : exchange->Take(milliseconds(5))) {
+              if (const auto* asked = std::get_if<exchange::NetworkRequest>(&message)) {
+                (void)exchange->Publish(registry.Answer(*asked));
+              } else if (const auto* wants = std::get_if<exchange::PhotoRequest>(&message)) {
+                if (const auto piece = registry.Give(*wants)) (void)exchange->Publish(*piece);
+              }
+            }
           }
-        }
-      }
-    });
+        });
+    AwaitServer(name);
+  }
+  static exchange::AgentStatus StatusOf(const std::string& name) {
+    return {.agent = AgentId(name),
+            .instance = 1,
+            .role = exchange::AgentRole::kServer,
+            .mode = exchange::AgentMode::kWaiting};
+  }
+  void AwaitServer(const std::string& name) {
+    test::Await(
+        [&] {
+          const json servers = Get("/api/state").body["servers"];
+          return std::any_of(servers.begin(), servers.end(),
+                             [&](const json& each) { return each["name"] == name; });
+        },
+        "the server is heard");
   }
   // A photo of the wall by a mission, whose name's first letter is its id's digits, too.
   void Keep(const std::string& mission, const image::GrayImage& picture) {
+    KeepIn(*folder_, mission, picture);
+  }
+  static void KeepIn(photos::PhotoFolder& folder, const std::string& mission,
+                     const image::GrayImage& picture) {
     const auto jpeg = image::EncodeJpeg(picture, 90).value();
     const Photo photo{.id = std::string(16, mission[0]),
                       .robot = AgentId("robot2"),
@@ -57,7 +86,7 @@ class PhotosApiTest : public testing::Test {
                       .height_px = picture.height,
                       .bytes = static_cast<std::uint32_t>(jpeg.size()),
                       .digest = route::Sha256(jpeg)};
-    ASSERT_TRUE(folder_->Add(photo, jpeg));
+    ASSERT_TRUE(folder.Add(photo, jpeg));
   }
   static image::GrayImage Wall(unsigned seed, double shift_px) {
     return test::PaintedWall(seed).Photograph(
@@ -75,7 +104,7 @@ class PhotosApiTest : public testing::Test {
   std::unique_ptr<photos::PhotoFolder> folder_ =
       photos::PhotoFolder::Open(place_ / "photos", 10'000'000).value();
   exchange::InProcessBus bus_;
-  std::jthread server_;
+  std::vector<std::jthread> servers_;
   Desk desk_{AgentId("desk-p7"), bus_.Open(ConsoleTopics()),
              Desk::Options{.reply_within = milliseconds(20'000)}};
   Atlas atlas_{[this]() -> Result<fleet::OperatorPeer> {
@@ -104,6 +133,79 @@ TEST_F(PhotosApiTest, AreListedAndShownWithTheOtherVisitsOfTheirPlace) {
   EXPECT_EQ(shown["photo"]["sure"], true);
   ASSERT_EQ(shown["visits"].size(), 1U) << shown;
   EXPECT_EQ(shown["visits"][0]["mission"], "b1");
+}
+
+TEST_F(PhotosApiTest, AreThoseOfAllServersTheLastTakenFirstAndEachOnce) {
+  Keep("a1", Wall(1, 0.0));
+  Keep("c1", Wall(1, 0.0));
+  auto shed = photos::PhotoFolder::Open(place_ / "shed", 10'000'000).value();
+  KeepIn(*shed, "b1", Wall(1, 10.0));
+  KeepIn(*shed, "c1", Wall(1, 0.0));  // its robot did not hear that the barn has it
+  Serve();
+  Serve("shed", std::move(shed));
+  const json all = Get("/api/photos").body;
+  std::vector<std::string> missions;
+  for (const json& photo : all["photos"]) missions.push_back(photo["mission"]);
+  EXPECT_THAT(missions, testing::ElementsAre("c1", "b1", "a1"));
+  EXPECT_EQ(all["silent"], json::array());
+  EXPECT_EQ(Get("/api/photos?first=1").body["photos"].size(), 2U);
+  EXPECT_EQ(Get("/api/photos/" + kA).body["visits"].size(), 2U);
+  for (const std::string& id : {kA, kB}) {
+    EXPECT_EQ(Client().Get("/api/photos/" + id + "/picture")->status, 200);
+  }
+  EXPECT_THAT(Client().Get("/api/photos.tar")->body, HasSubstr("-bbbb.jpg"));
+  EXPECT_THAT(Get("/api/photos?first=20000").error(), HasSubstr("only the last 20000"));
+}
+
+TEST_F(PhotosApiTest, PagesOfAllServersHaveEachPhotoOnce) {
+  constexpr std::size_t kPhotos = 230;  // of each server
+  const auto fill = [&](photos::PhotoFolder& folder, std::size_t odd) {
+    for (std::size_t i = 0; i < kPhotos; ++i) {
+      const auto jpeg = photos::SomeJpeg(10);
+      photos::Photo photo = photos::APhoto('a', jpeg);
+      photo.id = fmt::format("{:016x}", 2 * i + odd);
+      photo.taken_unix_ms += static_cast<std::int64_t>(2 * i + odd);
+      ASSERT_TRUE(folder.Add(photo, jpeg));
+    }
+  };
+  auto shed = photos::PhotoFolder::Open(place_ / "shed", 10'000'000).value();
+  fill(*folder_, 0);
+  fill(*shed, 1);
+  Serve();
+  Serve("shed", std::move(shed));
+  std::vector<std::string> ids;
+  std::uint32_t first = 0;
+  do {
+    const json page = Get("/api/photos?first=" + std::to_string(first)).body;
+    for (const json& photo : page["photos"]) ids.push_back(photo["id"]);
+    first = page["next"];
+  } while (first > 0 && ids.size() < 3 * kPhotos);
+  ASSERT_EQ(ids.size(), 2 * kPhotos);
+  EXPECT_TRUE(std::is_sorted(ids.rbegin(), ids.rend())) << "the last taken first";
+  EXPECT_EQ(std::adjacent_find(ids.begin(), ids.end()), ids.end());
+}
+
+TEST_F(PhotosApiTest, SayWhichServerIsHeardAndDoesNotAnswer) {
+  Keep("a1", Wall(1, 0.0));
+  Serve();
+  const auto mute = bus_.Open(program::WithAgents(exchange::ServerTopics()));
+  const std::jthread speaks([&](const std::stop_token& stop) {
+    program::Presence presence(*mute, StatusOf("mute"));
+    while (!stop.stop_requested()) {
+      presence.Tick(std::chrono::steady_clock::now());
+      (void)mute->Take(milliseconds(5));
+    }
+  });
+  AwaitServer("mute");
+  const json page = Get("/api/photos").body;
+  EXPECT_EQ(page["photos"].size(), 1U);
+  EXPECT_EQ(page["silent"], json::array({"mute"}));
+  const Replied folder = Get("/api/photos.tar");
+  EXPECT_EQ(folder.status, 503);
+  EXPECT_THAT(folder.error(), HasSubstr("route server mute does not answer"));
+  const Replied other = Get("/api/photos/" + kB);
+  EXPECT_EQ(other.status, 503) << "it may have that one";
+  EXPECT_THAT(other.error(), HasSubstr("route server mute does not answer"));
 }
 
 TEST_F(PhotosApiTest, ArePicturesAndAFolderWithATable) {

@@ -55,13 +55,16 @@ function Thumbnails({ photos, now_ms, chosen, onChoose }: {
   );
 }
 
+// `silent` are servers whose photos are not among them.
+type Page = { photos: Photo[]; next: number; silent: string[] };
+
 function usePhotos(search: Search, first: number) {
   const [photos, setPhotos] = useState<Photo[]>([]);
-  const [last, setLast] = useState<{ next: number } | string | null>(null);
+  const [last, setLast] = useState<Page | string | null>(null);
   useEffect(() => {
     let still = true;
     if (first === 0) setLast(null);
-    get<{ photos: Photo[]; next: number }>('/api/photos', { ...search, first: first ? String(first) : '' }).then((page) => {
+    get<Page>('/api/photos', { ...search, first: first ? String(first) : '' }).then((page) => {
       if (!still) return;
       setLast(page);
       const found = typeof page === 'string' ? [] : page.photos;
@@ -85,6 +88,7 @@ export function PhotoList({ mission, now_ms }: { mission: string; now_ms: number
     setSearch({ robot: word('robot'), route: word('route'), mission: word('mission'), place: word('place') });
   };
   const next = last !== null && typeof last !== 'string' ? last.next : 0;
+  const silent = last !== null && typeof last !== 'string' ? last.silent : [];
   const folder = new URLSearchParams(Object.entries(search).filter(([, value]) => value)).toString();
   return (
     <>
@@ -97,7 +101,12 @@ export function PhotoList({ mission, now_ms }: { mission: string; now_ms: number
       </form>
       {last === null && <p role="status" className="note">Loading …</p>}
       {typeof last === 'string' && <p role="status" className="answer bad">⚠ {last}</p>}
-      {last !== null && typeof last !== 'string' && photos.length === 0 && (
+      {silent.length > 0 && (
+        <p role="status" className="answer bad">
+          ⚠ {silent.join(', ')} {silent.length === 1 ? 'does' : 'do'} not answer: photos that {silent.length === 1 ? 'this route server keeps' : 'these route servers keep'} are not listed.
+        </p>
+      )}
+      {last !== null && typeof last !== 'string' && silent.length === 0 && photos.length === 0 && (
         <p role="status" className="note">
           There are no photos. A mission takes them with <code>photo every 5</code> or <code>photo at hall@12</code> before
           its orders; a robot out of reach keeps its own until it is back.

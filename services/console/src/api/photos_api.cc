@@ -1,8 +1,6 @@
 #include "services/console/src/api/photos_api.h"
 
-#include <algorithm>
 #include <atomic>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
@@ -32,8 +30,12 @@ void List(Album& album, const Request& request, Response& response) {
   if (!query) return Refuse(response, query.error());
   const auto page = album.List(query->of, query->first);
   if (!page) return Refuse(response, page.error());
+  Json silent = Json::array();
+  for (const AgentId& server : page->silent) silent.push_back(server.value());
   Answer(response, 200,
-         OneLine({{"photos", fleet::PhotosJson(page->photos)}, {"next", page->next}}));
+         OneLine({{"photos", fleet::PhotosJson(page->photos)},
+                  {"next", page->next},
+                  {"silent", std::move(silent)}}));
 }
 
 void Show(Album& album, const std::string& id, Response& response) {
@@ -143,22 +145,20 @@ void SendFolder(Album& album, std::atomic<int>& sending, const Request& request,
   if (++sending > kMostFolders) {
     return Refuse(response, 503, "too many folders of photos are sent at once: try again");
   }
-  auto query = ReadPhotosQuery(request.params);
+  const auto query = ReadPhotosQuery(request.params);
   if (!query) return Refuse(response, query.error());
-  std::vector<fleet::KnownPhoto> all;
-  do {
-    auto page = album.List(query->of, query->first);
-    if (!page) return Refuse(response, page.error());
-    std::move(page->photos.begin(), page->photos.end(), std::back_inserter(all));
-    query->first = page->next;
-  } while (query->first > 0 && all.size() < kMostInFolder);
-  if (all.size() > kMostInFolder) all.resize(kMostInFolder);
-  if (all.empty()) return Refuse(response, 404, "there are no such photos");
+  auto page = album.List(query->of, query->first, kMostInFolder);
+  if (!page) return Refuse(response, page.error());
+  if (!page->silent.empty()) {
+    return Refuse(response, 503,
+                  Album::SilentText(*page) + ", so that the folder would lack photos: try again");
+  }
+  if (page->photos.empty()) return Refuse(response, 404, "there are no such photos");
   response.set_header("Cache-Control", "no-store");
   response.set_header("Content-Disposition", "attachment; filename=\"photos.tar\"");
   response.set_chunked_content_provider(
       "application/x-tar",
-      [seat = std::move(seat), folder = std::make_shared<Folder>(album, std::move(all))](
+      [seat = std::move(seat), folder = std::make_shared<Folder>(album, std::move(page->photos))](
           std::size_t, httplib::DataSink& sink) { return folder->SendNext(sink); });
 }
 
